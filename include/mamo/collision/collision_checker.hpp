@@ -1,0 +1,75 @@
+// FCL behind one class: the robot against the scene and against itself, at a configuration or along an edge.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "mamo/kinematics/forward_kinematics.hpp"
+#include "mamo/model/problem.hpp"
+#include "mamo/model/world_state.hpp"
+
+namespace mamo {
+
+struct CollisionOptions {
+  /// No collision point of the arm moves further than this between two checked configurations (m).
+  double edge_step = 0.01;
+  /// Objects and fixtures are inflated by this when an edge is classified: half the edge step, plus what the
+  /// simulator calls contact (m). 0 inflates nothing.
+  double padding = 0.0055;
+};
+
+/// What a configuration or an edge hits. Bodies the caller asked about, in order of id.
+struct CollisionReport {
+  bool self = false;                // two links of the robot (first_self names them)
+  std::pair<LinkId, LinkId> first_self;
+  std::vector<ObjectId> touched;    // sorted, unique
+  bool free() const { return !self && touched.empty(); }
+};
+
+/// One instance per worker (FCL managers and objects are mutable); geometry is shared and immutable.
+/// Fixtures and every object are known from construction; which count is said per call.
+class CollisionChecker {
+ public:
+  CollisionChecker(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene,
+                   const CollisionOptions& options = {});
+  ~CollisionChecker();
+  CollisionChecker(const CollisionChecker&) = delete;
+
+  /// Puts the objects where `state` says. Only those whose pose changed cost time.
+  void set_state(const WorldState& state);
+
+  /// Robot against itself and against every object in `against` (fixtures too, if listed), unpadded.
+  /// stop_at_first: return as soon as anything is hit.
+  void check(const Eigen::VectorXd& q, const ObjectSet& against, bool stop_at_first, CollisionReport& out);
+
+  /// The straight edge from q0 to q1 (linear in joints), coarse to fine, both ends included; padded.
+  /// Self-collision and bodies in `forbidden` end the check at once (report.self, or touched holds that
+  /// body, and the return value is false). Bodies in `watched` are collected in report.touched.
+  bool check_edge(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const ObjectSet& forbidden,
+                  const ObjectSet& watched, CollisionReport& out);
+
+  /// An object rigidly attached to a link counts as robot from now on (X_LO: object in link); detach ends it.
+  void attach(ObjectId object, LinkId link, const Eigen::Isometry3d& X_LO);
+  void detach();
+
+  /// Objects overlapping one another by more than `tolerance` (m) at the current state; pairs a < b.
+  std::vector<std::pair<ObjectId, ObjectId>> overlapping_objects(double tolerance);
+
+  /// Configurations checked so far.
+  std::int64_t checks() const;
+  const CollisionOptions& options() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Pairs of links that a Robot should test: all pairs of links with shapes of which at least one moves, less
+/// `disabled` (SRDF), less adjacent ones, less those that collide at the start configuration or in at least
+/// 95 % of seeded samples (returned in robot.disabled_pairs). Fills robot.self_pairs.
+/// adjacent_only_from_srdf: when an SRDF was given its list is complete and nothing is sampled.
+void choose_self_pairs(Robot& robot, const std::vector<std::pair<LinkId, LinkId>>& disabled, bool srdf_given,
+                       std::uint64_t seed);
+
+}  // namespace mamo

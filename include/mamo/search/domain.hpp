@@ -1,0 +1,49 @@
+// What a search needs to know of its domain. No word of robots here.
+#pragma once
+
+#include <atomic>
+#include <concepts>
+#include <cstdint>
+#include <vector>
+
+namespace mamo::search {
+
+/// Integer costs: f has no rounding and ties are explicit. The domain's unit (the lattice: milliradians).
+using Cost = std::int64_t;
+inline constexpr Cost kUnreachable = INT64_MAX / 8;  // heuristic value of a state that cannot reach a goal
+
+/// A lazy edge: its cost is known, its child is not born until the edge is evaluated.
+struct LazyEdge {
+  std::int32_t action = 0;  // with the parent state all that evaluate() needs
+  Cost cost = 0;            // > 0
+  Cost heuristic = 0;       // of the child; must not depend on what the evaluation finds out
+};
+
+template <class State>
+struct EdgeOutcome {
+  bool valid = false;
+  bool cancelled = false;  // stopped from outside: neither valid nor invalid
+  State child{};           // if valid
+};
+
+/// D's methods are const and safe to call from several threads, each with its own Context. All but evaluate()
+/// are cheap and inline; evaluate() may take milliseconds of physics and must be a pure function of
+/// (state, action): the outcome may not depend on the context's past, on threads or on time.
+///
+/// A state has two keys (ALGORITHMS.md): the exact one, identity, `a == b`; and its class, which decides
+/// duplicates: a class closes when its first member commits. same_class is an equivalence coarser than ==.
+template <class D>
+concept Domain = requires(const D d, typename D::Context context, const typename D::State s, std::int32_t action,
+                          std::vector<LazyEdge> edges, const std::atomic<bool>* cancel) {
+  { d.start() } -> std::convertible_to<typename D::State>;
+  { s == s } -> std::convertible_to<bool>;
+  { d.hash(s) } -> std::convertible_to<std::uint64_t>;
+  { d.class_hash(s) } -> std::convertible_to<std::uint64_t>;
+  { d.same_class(s, s) } -> std::convertible_to<bool>;
+  { d.is_goal(s) } -> std::convertible_to<bool>;
+  { d.heuristic(s) } -> std::convertible_to<Cost>;
+  { d.successors(context, s, edges) };  // clears and fills `edges`, in a fixed order
+  { d.evaluate(context, s, action, cancel) } -> std::same_as<EdgeOutcome<typename D::State>>;
+};
+
+}  // namespace mamo::search
