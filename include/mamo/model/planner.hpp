@@ -28,6 +28,9 @@ struct Verdict {
   std::vector<Finding> findings;
   /// Pairs seen up to the violation, for planners that learn from a rejection; times from the plan's start.
   std::vector<Interaction> interactions;
+  /// Where the replay saw every object that is no fixture at each segment's end (as far as it came; the last one after
+  /// settling). A planner whose prediction is off may take these: the replay repeats bit for bit.
+  std::vector<std::map<ObjectId, Eigen::Isometry3d>> objects_after;
 };
 
 /// Replays a plan in a fresh world with every object. Implemented by `verify`, passed in by the mains.
