@@ -29,6 +29,13 @@ ForwardKinematics::ForwardKinematics(const Robot& robot) : robot_(robot) {
   for (int i = 0; i < robot_.dof(); ++i) group_index[robot_.group.joints[static_cast<std::size_t>(i)].index()] = i;
   const std::vector<bool> moving = robot_.moving_links();
 
+  std::vector<bool> above_tip(model.links.size(), false);
+  for (LinkId link = robot_.group.tip; link.valid();) {
+    above_tip[link.index()] = true;
+    const JointId up = model.links[link.index()].parent_joint;
+    link = up.valid() ? model.joints[up.index()].parent : LinkId{-1};
+  }
+
   rest_.resize(model.links.size(), Eigen::Isometry3d::Identity());
   rest_[0] = robot_.X_WB;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
@@ -38,39 +45,70 @@ ForwardKinematics::ForwardKinematics(const Robot& robot) : robot_(robot) {
     if (j.mimic) value = j.mimic->multiplier * value + j.mimic->offset;
     rest_[j.child.index()] = rest_[j.parent.index()] * j.X_PJ * joint_motion(j.type, j.axis, value);
     if (!moving[j.child.index()]) continue;
+
     Step step;
     step.link = j.child.value;
     step.parent = j.parent.value;
     step.X_PJ = j.X_PJ;
     step.axis = j.axis;
-    step.type = j.type;
     step.group_index = group_index[j.mimic ? j.mimic->joint.index() : i];
     step.multiplier = j.mimic ? j.mimic->multiplier : 1.0;
     step.offset = j.mimic ? j.mimic->offset : 0.0;
-    if (step.group_index < 0) step.X_PJ = j.X_PJ * joint_motion(j.type, j.axis, value), step.type = JointType::fixed;
+    step.motion = Motion::none;
+    if (step.group_index < 0)
+      step.X_PJ = j.X_PJ * joint_motion(j.type, j.axis, value);
+    else if (j.type == JointType::prismatic)
+      step.motion = Motion::along_axis;
+    else if (j.type != JointType::fixed)
+      step.motion = j.axis == Eigen::Vector3d::UnitX()   ? Motion::about_x
+                    : j.axis == Eigen::Vector3d::UnitY() ? Motion::about_y
+                    : j.axis == Eigen::Vector3d::UnitZ() ? Motion::about_z
+                                                         : Motion::about_axis;
+    step.rotated = step.X_PJ.linear() != Eigen::Matrix3d::Identity();
     steps_.push_back(step);
+    if (!above_tip[j.child.index()]) continue;
+    tip_steps_.push_back(step);
+    if (step.motion != Motion::none)
+      chain_.push_back({step.link, step.group_index, step.multiplier, step.motion == Motion::along_axis, step.axis});
   }
+}
+
+// A rotation about a coordinate axis leaves that column and turns the other two: a third of the work of a
+// matrix product, and no axis-angle formula.
+void ForwardKinematics::take(const Step& s, const Eigen::VectorXd& q, std::vector<Eigen::Isometry3d>& X_WL) {
+  const auto parent = X_WL[static_cast<std::size_t>(s.parent)].matrix();
+  auto& child = X_WL[static_cast<std::size_t>(s.link)].matrix();
+  Eigen::Matrix3d R = parent.topLeftCorner<3, 3>();
+  Eigen::Vector3d p = R * s.X_PJ.translation() + parent.topRightCorner<3, 1>();
+  if (s.rotated) R = (R * s.X_PJ.linear()).eval();
+
+  const double value = s.motion == Motion::none ? 0.0 : s.multiplier * q[s.group_index] + s.offset;
+  const auto turn = [&](int from, int to) {  // columns `from` -> c from + s to, `to` -> c to - s from
+    const double c = std::cos(value), sine = std::sin(value);
+    const Eigen::Vector3d a = R.col(from), b = R.col(to);
+    R.col(from) = c * a + sine * b;
+    R.col(to) = c * b - sine * a;
+  };
+  switch (s.motion) {
+    case Motion::none: break;
+    case Motion::about_x: turn(1, 2); break;
+    case Motion::about_y: turn(2, 0); break;
+    case Motion::about_z: turn(0, 1); break;
+    case Motion::about_axis: R = (R * Eigen::AngleAxisd(value, s.axis).toRotationMatrix()).eval(); break;
+    case Motion::along_axis: p += R * (value * s.axis); break;
+  }
+  child.topLeftCorner<3, 3>() = R;
+  child.topRightCorner<3, 1>() = p;
 }
 
 void ForwardKinematics::link_poses(const Eigen::VectorXd& q, std::vector<Eigen::Isometry3d>& X_WL) const {
   if (X_WL.size() != rest_.size()) X_WL = rest_;
-  for (const Step& s : steps_) {
-    const Eigen::Isometry3d& parent = X_WL[static_cast<std::size_t>(s.parent)];
-    Eigen::Isometry3d& child = X_WL[static_cast<std::size_t>(s.link)];
-    const Eigen::Matrix3d R = parent.linear() * s.X_PJ.linear();
-    child.translation().noalias() = parent.linear() * s.X_PJ.translation() + parent.translation();
-    if (s.type == JointType::fixed) {
-      child.linear() = R;
-      continue;
-    }
-    const double value = s.multiplier * q[s.group_index] + s.offset;
-    if (s.type == JointType::prismatic) {
-      child.linear() = R;
-      child.translation().noalias() += R * (value * s.axis);
-    } else {
-      child.linear().noalias() = R * Eigen::AngleAxisd(value, s.axis).toRotationMatrix();
-    }
-  }
+  for (const Step& s : steps_) take(s, q, X_WL);
+}
+
+void ForwardKinematics::chain_poses(const Eigen::VectorXd& q, std::vector<Eigen::Isometry3d>& X_WL) const {
+  if (X_WL.size() != rest_.size()) X_WL = rest_;
+  for (const Step& s : tip_steps_) take(s, q, X_WL);
 }
 
 Eigen::Isometry3d ForwardKinematics::link_pose(const Eigen::VectorXd& q, LinkId link) const {
@@ -79,31 +117,31 @@ Eigen::Isometry3d ForwardKinematics::link_pose(const Eigen::VectorXd& q, LinkId 
   return X_WL[link.index()];
 }
 
-Eigen::Isometry3d ForwardKinematics::tip_pose(const Eigen::VectorXd& q) const { return link_pose(q, robot_.group.tip); }
+Eigen::Isometry3d ForwardKinematics::tip_pose(const Eigen::VectorXd& q) const {
+  std::vector<Eigen::Isometry3d> X_WL;
+  chain_poses(q, X_WL);
+  return X_WL[robot_.group.tip.index()];
+}
 
 void ForwardKinematics::jacobian(const Eigen::VectorXd& q, Eigen::Matrix<double, 6, Eigen::Dynamic>& J) const {
   std::vector<Eigen::Isometry3d> X_WL;
-  link_poses(q, X_WL);
+  chain_poses(q, X_WL);
+  jacobian(X_WL, J);
+}
+
+void ForwardKinematics::jacobian(const std::vector<Eigen::Isometry3d>& X_WL,
+                                 Eigen::Matrix<double, 6, Eigen::Dynamic>& J) const {
   J.setZero(6, robot_.dof());
   const Eigen::Vector3d tip = X_WL[robot_.group.tip.index()].translation();
-  // Walk from the tip to the root; a joint's axis in world is that of its child link.
-  const RobotModel& model = *robot_.model;
-  for (LinkId link = robot_.group.tip; model.links[link.index()].parent_joint.valid();) {
-    const JointId id = model.links[link.index()].parent_joint;
-    const Joint& j = model.joints[id.index()];
-    const JointId driver = j.mimic ? j.mimic->joint : id;
-    const double k = j.mimic ? j.mimic->multiplier : 1.0;
-    for (int i = 0; i < robot_.dof(); ++i) {
-      if (robot_.group.joints[static_cast<std::size_t>(i)] != driver || j.type == JointType::fixed) continue;
-      const Eigen::Vector3d axis = X_WL[link.index()].linear() * j.axis;
-      if (j.type == JointType::prismatic) {
-        J.col(i).head<3>() += k * axis;
-      } else {
-        J.col(i).head<3>() += k * axis.cross(tip - X_WL[link.index()].translation());
-        J.col(i).tail<3>() += k * axis;
-      }
+  for (const ChainJoint& c : chain_) {  // a mimic joint adds to its driver's column
+    const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(c.link)];
+    const Eigen::Vector3d axis = c.multiplier * (X.linear() * c.axis);
+    if (c.prismatic) {
+      J.col(c.group_index).head<3>() += axis;
+    } else {
+      J.col(c.group_index).head<3>() += axis.cross(tip - X.translation());
+      J.col(c.group_index).tail<3>() += axis;
     }
-    link = j.parent;
   }
 }
 
@@ -122,6 +160,11 @@ Eigen::VectorXd ForwardKinematics::motion_bounds(LinkId link, const Eigen::Vecto
   // Triangle inequality along the chain: distance from a joint's axis to the point is at most the sum of the
   // offsets in between (plus the travel of prismatic joints in between).
   const RobotModel& model = *robot_.model;
+  const auto largest_travel = [&](const Joint& j) {
+    const Joint& driver = j.mimic ? model.joints[j.mimic->joint.index()] : j;
+    const double k = j.mimic ? j.mimic->multiplier : 1.0, offset = j.mimic ? j.mimic->offset : 0.0;
+    return std::max(std::abs(k * driver.lower + offset), std::abs(k * driver.upper + offset));
+  };
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(robot_.dof());
   double reach = p_L.norm();
   while (model.links[link.index()].parent_joint.valid()) {
@@ -132,7 +175,7 @@ Eigen::VectorXd ForwardKinematics::motion_bounds(LinkId link, const Eigen::Vecto
     for (int i = 0; i < robot_.dof(); ++i)
       if (robot_.group.joints[static_cast<std::size_t>(i)] == driver && j.type != JointType::fixed)
         bound[i] += k * (j.type == JointType::prismatic ? 1.0 : reach);
-    if (j.type == JointType::prismatic) reach += std::max(std::abs(j.lower), std::abs(j.upper));
+    if (j.type == JointType::prismatic) reach += largest_travel(j);
     reach += j.X_PJ.translation().norm();
     link = j.parent;
   }

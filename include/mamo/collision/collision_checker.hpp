@@ -24,10 +24,14 @@ struct CollisionReport {
   bool self = false;                // two links of the robot (first_self names them)
   std::pair<LinkId, LinkId> first_self;
   std::vector<ObjectId> touched;    // sorted, unique
+  /// Of an edge: the smallest checked parameter (0 at q0, 1 at q1) at which a watched object is touched; else 2.
+  double first_touch = 2;
   bool free() const { return !self && touched.empty(); }
 };
 
-/// One instance per worker (FCL managers and objects are mutable); geometry is shared and immutable.
+/// One instance per worker (it holds scratch); geometry is immutable. Answers do not depend on earlier calls but
+/// for set_state, attach and detach. Links that no group joint moves are not tested against objects: nothing that a
+/// plan decides changes their contacts (a base may stand on its table).
 /// Fixtures and every object are known from construction; which count is said per call.
 class CollisionChecker {
  public:
@@ -49,7 +53,11 @@ class CollisionChecker {
   bool check_edge(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const ObjectSet& forbidden,
                   const ObjectSet& watched, CollisionReport& out);
 
-  /// An object rigidly attached to a link counts as robot from now on (X_LO: object in link); detach ends it.
+  /// The parameters in [0, 1] that check_edge looks at, ascending.
+  std::vector<double> edge_samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1) const;
+
+  /// An object rigidly attached to a link counts as robot from now on (X_LO: object in link), no longer as an
+  /// object, and is tested against the links that self_pairs has for that link; detach ends it.
   void attach(ObjectId object, LinkId link, const Eigen::Isometry3d& X_LO);
   void detach();
 

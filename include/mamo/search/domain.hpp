@@ -19,11 +19,18 @@ struct LazyEdge {
   Cost heuristic = 0;       // of the child; must not depend on what the evaluation finds out
 };
 
-template <class State>
-struct EdgeOutcome {
+/// What an evaluation says besides its child. All of it is a pure function of (state, action).
+struct EdgeReport {
   bool valid = false;
-  bool cancelled = false;  // stopped from outside: neither valid nor invalid
-  State child{};           // if valid
+  bool cancelled = false;   // stopped from outside: neither valid nor invalid, nothing else is meaningful
+  std::int32_t tag = 0;     // the domain's own code (the lattice: cause of failure), tallied at commit
+  std::int32_t charge = 0;  // uses of the counted resource (the lattice: simulations), limited by max_charge
+  std::int64_t work = 0;    // summed at commit (the lattice: collision checks)
+};
+
+template <class State>
+struct EdgeOutcome : EdgeReport {
+  State child{};  // if valid
 };
 
 /// D's methods are const and safe to call from several threads, each with its own Context. All but evaluate()
@@ -32,6 +39,9 @@ struct EdgeOutcome {
 ///
 /// A state has two keys (ALGORITHMS.md): the exact one, identity, `a == b`; and its class, which decides
 /// duplicates: a class closes when its first member commits. same_class is an equivalence coarser than ==.
+///
+/// `cancel` may be null. An evaluation that can last more than a few milliseconds polls it, and the query's
+/// StopSource besides, and then returns `cancelled`: nobody watches the clock on behalf of a worker.
 template <class D>
 concept Domain = requires(const D d, typename D::Context context, const typename D::State s, std::int32_t action,
                           std::vector<LazyEdge> edges, const std::atomic<bool>* cancel) {
@@ -44,6 +54,21 @@ concept Domain = requires(const D d, typename D::Context context, const typename
   { d.heuristic(s) } -> std::convertible_to<Cost>;
   { d.successors(context, s, edges) };  // clears and fills `edges`, in a fixed order
   { d.evaluate(context, s, action, cancel) } -> std::same_as<EdgeOutcome<typename D::State>>;
+};
+
+/// Optional: d.known_child(s, action, child) is true when a valid evaluation of (s, action) can have no other
+/// child than the one it writes. Cheap, pure. Edges into closed classes are then dropped unevaluated.
+template <class D>
+concept PredictsChild = requires(const D d, const typename D::State s, std::int32_t action, typename D::State child) {
+  { d.known_child(s, action, child) } -> std::convertible_to<bool>;
+};
+
+/// Optional: d.on_commit(s, action, report) is called once for every evaluation that commits, in commit order,
+/// one call at a time (on any thread), and returns the charge to count. A domain that memoises outcomes needs it:
+/// what speculation left in the memo must not show in a counter.
+template <class D>
+concept ObservesCommits = requires(const D d, const typename D::State s, std::int32_t action, EdgeReport report) {
+  { d.on_commit(s, action, report) } -> std::same_as<std::int32_t>;
 };
 
 }  // namespace mamo::search

@@ -1,0 +1,18 @@
+// Seconds since construction, for statistics only: nothing may be decided by it.
+#pragma once
+
+#include <chrono>
+
+namespace mamo {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace mamo

@@ -1,0 +1,129 @@
+// The manipulation lattice as a search domain: joint bins times poses of the relevant objects (SelSim, IV-B).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "mamo/common/stop.hpp"
+#include "mamo/lattice/edge_evaluator.hpp"
+#include "mamo/lattice/goal.hpp"
+#include "mamo/lattice/grid_heuristic.hpp"
+#include "mamo/lattice/lattice_options.hpp"
+#include "mamo/search/domain.hpp"
+
+namespace mamo {
+
+/// Exact key. The configuration is base(anchor) + bins * resolution; anchor 0 is the start configuration,
+/// anchor k the k-th goal configuration (reached by a snap, bins then zero).
+struct LatticeState {
+  std::int32_t anchor = 0;
+  std::vector<std::int32_t> bins;      // one per group joint
+  std::vector<QuantisedPose> objects;  // relevant objects in order of id
+  friend auto operator<=>(const LatticeState&, const LatticeState&) = default;
+};
+
+/// An edge that tracking or verification refuted: not taken again in this query.
+struct BannedEdge {
+  LatticeState state;
+  std::int32_t action;
+  friend auto operator<=>(const BannedEdge&, const BannedEdge&) = default;
+};
+
+/// Built once per query, shared by all planning iterations: goal, heuristic, actions. Immutable.
+///
+/// Actions of a configuration, in this order: long primitives, short primitives (near start or goal), steps of
+/// several joints towards the nearest goal configurations (rounded to bins), snaps onto the nearest goal
+/// configurations. They depend on the configuration, the goal and the seed only (Theorem 5.2).
+/// Cost: length in joint space (Euclidean, rad and m alike), in 1/1000, rounded up.
+class LatticeModel {
+ public:
+  LatticeModel(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+               const LatticeOptions& options, ReachGoal goal, const TrackedPoint& point, const ObjectSet& walls);
+
+  struct Move {
+    std::int32_t action;
+    std::int32_t anchor;             // of the child
+    std::vector<std::int32_t> bins;  // of the child
+    search::Cost cost;
+  };
+  /// Children in joint limits. Scratch is the caller's.
+  void moves(const LatticeState& state, std::vector<Move>& out) const;
+  /// The child of one action; false if there is none. The inverse of what moves() enumerates.
+  bool move(const LatticeState& state, std::int32_t action, Move& out) const;
+
+  Eigen::VectorXd configuration(std::int32_t anchor, const std::vector<std::int32_t>& bins) const;
+  search::Cost heuristic(const Eigen::VectorXd& q) const;
+  const ReachGoal& goal() const { return goal_; }
+  const ForwardKinematics& kinematics() const { return *kinematics_; }
+  const LatticeOptions& options() const { return options_; }
+  search::Cost cost_per_cell() const { return cost_per_cell_; }
+
+ private:
+  bool primitive(const LatticeState& state, int index, Move& out) const;
+  bool extend(const LatticeState& state, const Eigen::VectorXd& q, int goal, Move& out) const;
+  bool snap(const Eigen::VectorXd& q, int goal, Move& out) const;
+  std::vector<int> nearest_goals(const Eigen::VectorXd& q, int count) const;
+  bool near_ends(const Eigen::VectorXd& q) const;
+  search::Cost cost_of(const Eigen::VectorXd& dq) const;
+
+  const Problem& problem_;
+  std::shared_ptr<const ForwardKinematics> kinematics_;
+  LatticeOptions options_;
+  ReachGoal goal_;
+  TrackedPoint point_;
+  GridHeuristic grid_;
+  Eigen::VectorXd resolution_;           // rad or m per bin
+  std::vector<std::int32_t> long_, short_;  // bins of a primitive, per joint
+  search::Cost shortest_ = 0;            // cost of the cheapest primitive
+  search::Cost cost_per_cell_ = 0;
+  Eigen::Vector3d p_start_;              // tracked point at the start (m)
+};
+
+/// EdgeReport::tag of an edge that was refused, and the name under which it is counted in a result
+/// ("simulation_tilt", "collision_robot_touch").
+std::int32_t failure_tag(ViolationKind kind, bool simulated);
+std::string failure_name(std::int32_t tag);
+
+/// The search domain of one planning iteration: the lattice projected onto the relevant objects (S_sel).
+class ManipulationLattice {
+ public:
+  using State = LatticeState;
+  struct Context {
+    EdgeEvaluator* evaluator = nullptr;
+    std::vector<LatticeModel::Move> moves;
+  };
+
+  ManipulationLattice(const Problem& problem, const LatticeModel& model, const RelevantBodies& bodies,
+                      const std::set<BannedEdge>& banned, StopSource* stop);
+
+  State start() const;
+  std::uint64_t hash(const State& s) const;
+  std::uint64_t class_hash(const State& s) const;
+  bool same_class(const State& a, const State& b) const;
+  bool is_goal(const State& s) const;
+  search::Cost heuristic(const State& s) const;
+  void successors(Context& context, const State& s, std::vector<search::LazyEdge>& out) const;
+  search::EdgeOutcome<State> evaluate(Context& context, const State& s, std::int32_t action,
+                                      const std::atomic<bool>* cancel) const;
+
+  /// Where all objects are in a state: relevant ones as the state says, the others at their start.
+  WorldState world_of(const State& s) const;
+  const std::vector<ObjectId>& relevant() const { return ids_; }
+
+ private:
+  using PoseClass = std::array<std::int32_t, 9>;
+  PoseClass pose_class(std::size_t k, const QuantisedPose& pose) const;
+
+  const Problem& problem_;
+  const LatticeModel& model_;
+  RelevantBodies bodies_;
+  std::vector<ObjectId> ids_;
+  std::vector<bool> symmetric_;  // rotation about the object's z axis does not matter
+  WorldState start_;
+  const std::set<BannedEdge>& banned_;
+  StopSource* stop_;
+};
+
+}  // namespace mamo

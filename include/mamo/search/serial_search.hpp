@@ -1,0 +1,43 @@
+// The serial driver: evaluates what a serial order needs, one edge after the other, on the caller's thread.
+#pragma once
+
+#include <vector>
+
+#include "mamo/search/commit_log.hpp"
+#include "mamo/search/state_table.hpp"
+
+namespace mamo::search {
+
+/// Runs Order (LazyOrder or EagerOrder) to its end. Exceptions of the domain pass through.
+template <template <Domain, class> class Order, Domain D>
+SearchResult<typename D::State> serial_search(const D& domain, typename D::Context& context,
+                                              const SearchOptions& options) {
+  StateTable<D> table(domain);
+  Order<D, StateTable<D>> order(domain, table, options);
+  std::vector<LazyEdge> buffer;
+  const auto edges = [&](StateId state) -> const std::vector<LazyEdge>& {
+    domain.successors(context, table.state(state), buffer);
+    return buffer;
+  };
+  const auto stopped = [&] { return options.stop && options.stop->stopped(); };
+
+  if (!stopped()) order.begin(table.intern(domain.start()), edges);
+  for (std::uint32_t step = 0; !order.ended(); ++step) {
+    if (stopped()) {
+      order.abort(EndReason::stopped);
+      break;
+    }
+    const Need* need = order.next(edges);
+    if (!need) break;
+    const auto evaluated = domain.evaluate(context, table.state(need->parent), need->action, nullptr);
+    if (evaluated.cancelled) {
+      order.abort(EndReason::stopped);
+      break;
+    }
+    order.commit({evaluated, evaluated.valid ? table.intern(evaluated.child) : kNoState}, edges);
+    if (options.on_progress && step % 16 == 0) options.on_progress(order.progress());
+  }
+  return order.result();
+}
+
+}  // namespace mamo::search

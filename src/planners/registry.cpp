@@ -1,0 +1,50 @@
+#include "mamo/planners/registry.hpp"
+
+#include "mamo/selsim/selsim_planner.hpp"
+
+namespace mamo {
+namespace {
+
+struct Entry {
+  std::string name;
+  std::unique_ptr<Planner> (*make)();
+  std::vector<OptionDoc> (*options)();
+};
+
+template <bool kSelective, bool kLazy>
+std::unique_ptr<Planner> make_selsim() {
+  const std::string name = std::string(kSelective ? "selsim" : "fullsim") + (kLazy ? "" : "-wastar");
+  return make_selsim_planner({name, kSelective, kLazy});
+}
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      {"selsim", make_selsim<true, true>, selsim_options},
+      {"selsim-wastar", make_selsim<true, false>, selsim_options},
+      {"fullsim", make_selsim<false, true>, selsim_options},
+      {"fullsim-wastar", make_selsim<false, false>, selsim_options},
+  };
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> planner_names() {
+  std::vector<std::string> names;
+  for (const Entry& e : entries()) names.push_back(e.name);
+  return names;
+}
+
+std::unique_ptr<Planner> make_planner(const std::string& name) {
+  for (const Entry& e : entries())
+    if (e.name == name) return e.make();
+  return nullptr;
+}
+
+std::vector<OptionDoc> planner_options(const std::string& planner) {
+  for (const Entry& e : entries())
+    if (e.name == planner) return e.options();
+  return {};
+}
+
+}  // namespace mamo

@@ -1,0 +1,33 @@
+#include "selsim/selsim_options.hpp"
+
+#include "mamo/selsim/selsim_planner.hpp"
+
+namespace mamo {
+
+OptionTable SelSimOptions::table() {
+  OptionTable t;
+  LatticeOptions& l = lattice;
+  t.add("immovables", immovables, {"known", "discovered"},
+        "whether the search knows the immovable objects from the start or finds them like the others");
+  t.add("max_iterations", max_iterations, 1, 1000000, "planning iterations before giving up");
+  t.add("joint_resolution_deg", l.joint_resolution_deg, 0.01, 45, "bin of a revolute joint (deg)");
+  t.add("prismatic_resolution", l.prismatic_resolution, 1e-5, 0.5, "bin of a prismatic joint (m)");
+  t.add("long_step_deg", l.long_step_deg, 0.1, 90, "long primitive, one joint at a time (deg)");
+  t.add("short_step_deg", l.short_step_deg, 0.1, 90, "short primitive, near the start and the goal (deg)");
+  t.add("short_distance", l.short_distance, 0, 10, "where short primitives act: distance to start or goal (m)");
+  t.add("goal_configurations", l.goal_configurations, 1, 1000, "inverse-kinematics solutions that snaps aim at");
+  t.add("snaps", l.snaps, 0, 1000, "snaps tried from a state, to the nearest goal configurations");
+  t.add("extends", l.extends, 0, 1000, "steps tried from a state towards the nearest goal configurations");
+  t.add("extend_step_deg", l.extend_step_deg, 0.1, 360, "length of such a step (deg)");
+  t.add("heuristic_cell", l.heuristic_cell, 0.005, 0.5, "cell of the breadth-first heuristic (m)");
+  t.add("object_position_resolution", l.object_position_resolution, 1e-6, 1, "of a state's class (m)");
+  t.add("object_angle_resolution_deg", l.object_angle_resolution_deg, 1e-3, 180, "of a state's class (deg)");
+  t.add("exact_objects", l.exact_objects, "duplicates only when object poses are exactly equal");
+  t.add("edge_step", l.collision.edge_step, 1e-4, 0.1, "arm motion between two collision checks (m)");
+  t.add("padding", l.collision.padding, 0, 0.1, "inflation of objects when an edge is classified (m)");
+  return t;
+}
+
+std::vector<OptionDoc> selsim_options() { return SelSimOptions{}.table().docs(); }
+
+}  // namespace mamo

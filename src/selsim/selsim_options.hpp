@@ -1,0 +1,20 @@
+// Options of the selective-simulation planners, parsed from PlanOptions.
+#pragma once
+
+#include "mamo/lattice/lattice_options.hpp"
+#include "mamo/model/option_table.hpp"
+#include "mamo/model/planner.hpp"
+
+namespace mamo {
+
+struct SelSimOptions {
+  double weight = 10;               // when --weight is not given
+  std::string immovables = "known";  // known | discovered (ALGORITHMS.md, "What the search knows")
+  int max_iterations = 200;         // planning iterations
+  LatticeOptions lattice;
+
+  /// The table bound to this object; docs() shows the values it holds now.
+  OptionTable table();
+};
+
+}  // namespace mamo

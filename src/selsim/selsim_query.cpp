@@ -1,0 +1,211 @@
+#include "selsim/selsim_query.hpp"
+
+#include "mamo/lattice/shortcut.hpp"
+#include "mamo/search/lazy_weighted_astar.hpp"
+#include "mamo/search/weighted_astar.hpp"
+#include "mamo/selsim/relevant_object.hpp"
+
+namespace mamo {
+
+SelSimQuery::SelSimQuery(const SelSimVariant& variant, const Problem& problem, const PlanOptions& options,
+                         const PlanContext& context)
+    : variant_(variant), problem_(problem), options_(options), context_(context) {
+  settings_.table().apply(options.set);
+  weight_ = options.weight > 0 ? options.weight : settings_.weight;
+  result_.planner = variant.name;
+  result_.seed = options.seed;
+  result_.threads = options.threads;
+}
+
+void SelSimQuery::prepare() {
+  kinematics_ = std::make_shared<ForwardKinematics>(problem_.robot);
+  evaluator_ = std::make_unique<EdgeEvaluator>(problem_, kinematics_, settings_.lattice.collision);
+  everything_ = make_relevant_bodies(problem_, ObjectSet::all(problem_.scene));
+  // Bodies that stay put and may not be touched: walls for goal configurations and heuristic alike.
+  ObjectSet immovable = ObjectSet::of_kind(problem_.scene, ObjectKind::immovable);
+  ObjectSet walls(problem_.scene.size());
+  for (ObjectId id : everything_.forbidden.ids())
+    if (!problem_.scene[id].movable()) walls.insert(id);
+  relevant_ = !variant_.selective                    ? ObjectSet::all(problem_.scene)
+              : settings_.immovables == "discovered" ? ObjectSet(problem_.scene.size())
+                                                     : immovable;
+  const TrackedPoint point = tracked_point(*kinematics_);
+  ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator_->collision(), walls, options_.seed,
+                                   settings_.lattice.goal_configurations);
+  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), point, walls);
+}
+
+SelSimQuery::Search SelSimQuery::search_once() {
+  const ManipulationLattice lattice(problem_, *model_, make_relevant_bodies(problem_, relevant_), banned_, context_.stop);
+  ManipulationLattice::Context scratch{evaluator_.get(), {}};
+  search::SearchOptions options;
+  options.weight = weight_;
+  options.max_expansions = options_.max_expansions - result_.stats.expansions;
+  options.max_charge = options_.max_simulations - result_.stats.simulations_used;
+  options.stop = context_.stop;
+  if (context_.on_progress)
+    options.on_progress = [&](const search::SearchProgress& p) {
+      context_.on_progress({watch_.seconds(), result_.stats.expansions + p.expansions,
+                            result_.stats.simulations_used + p.charge, p.open_min_f,
+                            static_cast<int>(relevant_.ids().size()), result_.stats.planning_iterations});
+    };
+  const Stopwatch watch;
+  Search found = variant_.lazy ? search::lazy_weighted_astar(lattice, scratch, options)
+                               : search::weighted_astar(lattice, scratch, options);
+  PlanStats& stats = result_.stats;
+  stats.search_s += watch.seconds();
+  stats.expansions += found.counters.expansions;
+  stats.simulations_used += found.counters.charge;
+  stats.collision_checks += found.counters.work;
+  for (const auto& [tag, count] : found.counters.tags)
+    if (tag > 0) stats.failures[failure_name(tag)] += count;
+  ++stats.planning_iterations;
+  signature_.add(found.order_hash);
+  merged_ = merged_ || found.merged;
+  return found;
+}
+
+std::vector<Eigen::VectorXd> SelSimQuery::configurations_of(const Search& found) const {
+  std::vector<Eigen::VectorXd> path{problem_.q_start};
+  for (const auto& step : found.path) path.push_back(model_->configuration(step.child.anchor, step.child.bins));
+  return path;
+}
+
+Plan SelSimQuery::plan_of(const Track& track) const {
+  Segment segment;
+  segment.kind = SegmentKind::reach;
+  for (int i = 0; i < problem_.robot.dof(); ++i) segment.joint_names.push_back(problem_.robot.joint(i).name);
+  segment.motion = track.motion;
+  for (ObjectId id : everything_.relevant.ids()) segment.objects_after[id] = track.state.X_WO(id);
+  return {{segment}};
+}
+
+bool SelSimQuery::judged(Candidate& candidate) {
+  result_.plan = plan_of(candidate.track);
+  if (!context_.judge) return true;
+  result_.plan.segments.front().objects_after.clear();  // the replay says where the objects end up
+  const Stopwatch watch;
+  candidate.verdict = context_.judge->judge(problem_, result_.plan, *context_.stop);
+  result_.stats.verification_s += watch.seconds();
+  result_.verified = candidate.verdict.ok;
+  if (candidate.verdict.ok) result_.plan.segments.front().objects_after = candidate.verdict.objects_after.front();
+  return candidate.verdict.ok;
+}
+
+bool SelSimQuery::accept(const Search& found) {
+  const Stopwatch watch;
+  const std::int64_t checks = evaluator_->collision_checks();
+  Candidate raw{configurations_of(found), {}, {}};
+  raw.track = track(problem_, *evaluator_, raw.path, everything_, context_.stop);
+  Candidate smooth;
+  if (raw.track.ok && options_.smooth) {
+    smooth.path = shortcut(raw.path, raw.track.touching, raw.track.states, *evaluator_, everything_, context_.stop);
+    if (smooth.path.size() < raw.path.size())
+      smooth.track = track(problem_, *evaluator_, smooth.path, everything_, context_.stop);
+  }
+  result_.stats.tracking_s += watch.seconds();
+  result_.stats.tracking_simulations += raw.track.simulations + smooth.track.simulations;
+  result_.stats.collision_checks += evaluator_->collision_checks() - checks;
+  if (raw.track.stopped) return false;
+  if (!raw.track.ok) {
+    learn(raw.track.interactions, *raw.track.violation, raw.track.failed_edge, found);
+    return false;
+  }
+  if (!result_.found) result_.stats.found_s = watch_.seconds();
+  result_.found = true;
+  result_.second_order_contacts = raw.track.second_order;
+  result_.cost = found.cost;
+  result_.suboptimality_bound = found.bound;
+  if (smooth.track.ok && judged(smooth)) return true;
+  if (smooth.track.ok) ++result_.stats.failures["smoothing_rejected"];
+  if (judged(raw)) return true;
+  if (raw.verdict.stopped) return false;
+
+  ++result_.rejected_by_verification;
+  const Violation& violation = raw.verdict.findings.front().violation;
+  const std::vector<double>& t = raw.track.motion.t;
+  const auto point = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), violation.time_s) - t.begin());
+  learn(raw.verdict.interactions, violation, raw.track.edge_of_point[std::min(point, t.size() - 1)], found);
+  return false;
+}
+
+void SelSimQuery::learn(const std::vector<Interaction>& interactions, const Violation& violation, int edge,
+                        const Search& found) {
+  ++result_.stats.failures["replay_" + std::string(to_string(violation.kind))];
+  const ObjectId id = relevant_object(interactions, violation.object, relevant_, problem_.scene);
+  if (id.valid()) {
+    relevant_.insert(id);
+    result_.stats.relevant_objects.push_back(id);
+    signature_.add(id.value);
+    return;
+  }
+  ++result_.stats.failures["replay_mismatch"];
+  if (found.path.empty()) return;
+  const auto& step = found.path[static_cast<std::size_t>(std::clamp<int>(edge, 0, static_cast<int>(found.path.size()) - 1))];
+  banned_.insert({step.parent, step.action});
+}
+
+PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
+  result_.status = status;
+  result_.reason = std::move(reason);
+  result_.stats.wall_s = watch_.seconds();
+  result_.stats.simulations = evaluator_->simulations() - result_.stats.tracking_simulations;
+  result_.stats.simulation_s = evaluator_->simulation_s();
+  if (status != PlanStatus::solved) result_.plan = {};
+  for (const Segment& segment : result_.plan.segments)
+    for (std::size_t k = 0; k < segment.motion.t.size(); ++k) {
+      signature_.add(segment.motion.t[k]);
+      for (Eigen::Index i = 0; i < segment.motion.q[k].size(); ++i) signature_.add(segment.motion.q[k][i]);
+    }
+  result_.signature = signature_.value();
+  return result_;
+}
+
+PlanResult& SelSimQuery::stopped() {
+  switch (context_.stop->reason()) {
+    case StopReason::interrupted: return finish(PlanStatus::interrupted, "interrupted");
+    case StopReason::memory: return finish(PlanStatus::memory, "the memory limit was reached; --memory-limit raises it");
+    default: return finish(PlanStatus::timeout, "no plan within the time limit; --time-limit raises it");
+  }
+}
+
+PlanResult& SelSimQuery::no_path(const Search& search) {
+  switch (search.reason) {
+    case search::EndReason::stopped: return stopped();
+    case search::EndReason::limit_expansions:
+      return finish(PlanStatus::limit, "no plan within the limit on expansions; --max-expansions raises it");
+    case search::EndReason::limit_charge:
+      return finish(PlanStatus::limit, "no plan within the limit on simulations; --max-simulations raises it");
+    default: break;
+  }
+  std::string doubt;
+  if (search.counters.pruned_infinite > 0) doubt = "states without a way to the goal in the grid heuristic were pruned";
+  if (merged_) doubt = "states with nearly equal object poses were merged (exact_objects=true keeps them apart)";
+  if (!banned_.empty()) doubt = "motions that the replay refuted were banned";
+  if (model_->goal().ik_budget_used_up)
+    doubt = "inverse kinematics found fewer goal configurations than asked for (goal_configurations lowers that)";
+  if (!doubt.empty()) return finish(PlanStatus::limit, "the lattice is exhausted, which proves nothing: " + doubt);
+  return finish(PlanStatus::proven,
+                "no plan exists in this lattice (joint_resolution_deg, long_step_deg, short_step_deg, "
+                "goal_configurations), given that some plan without second-order interactions exists if any does "
+                "(assumption A1 of the paper)");
+}
+
+PlanResult SelSimQuery::run() {
+  prepare();
+  if (model_->goal().configurations.empty())
+    return finish(PlanStatus::limit, "no goal configuration is free of collision (" +
+                                         std::to_string(model_->goal().rejected_in_collision) +
+                                         " inverse-kinematics solutions hit the robot itself, a fixture or an immovable)");
+  while (result_.stats.planning_iterations < settings_.max_iterations) {
+    const Search found = search_once();
+    if (!found.found()) return no_path(found);
+    if (accept(found)) return finish(PlanStatus::solved, "");
+    if (context_.stop->stopped()) return stopped();
+    if (found.path.empty())
+      return finish(PlanStatus::limit, "the start fulfils the task, but the replay of standing still is refused");
+  }
+  return finish(PlanStatus::limit, "no plan within max_iterations planning iterations; --set max_iterations=N raises it");
+}
+
+}  // namespace mamo

@@ -1,0 +1,68 @@
+// One query of selective simulation: the state that Algorithm 2 keeps between its planning iterations.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "mamo/common/hash.hpp"
+#include "mamo/common/stopwatch.hpp"
+#include "mamo/lattice/manipulation_lattice.hpp"
+#include "mamo/search/search_result.hpp"
+#include "mamo/selsim/selsim_planner.hpp"
+#include "mamo/selsim/tracker.hpp"
+#include "selsim/selsim_options.hpp"
+
+namespace mamo {
+
+/// Invariants of the loop in run(): every iteration that does not return makes `relevant_` or `banned_` grow;
+/// what depends on `relevant_` is rebuilt, the rest (goal, heuristic, worlds) is not.
+class SelSimQuery {
+ public:
+  SelSimQuery(const SelSimVariant& variant, const Problem& problem, const PlanOptions& options,
+              const PlanContext& context);
+  PlanResult run();
+
+ private:
+  using Search = search::SearchResult<LatticeState>;
+  struct Candidate {
+    std::vector<Eigen::VectorXd> path;
+    Track track;
+    Verdict verdict;  // of the judge
+  };
+
+  void prepare();
+  Search search_once();
+  std::vector<Eigen::VectorXd> configurations_of(const Search& found) const;
+  /// Tracks, smooths and judges a found path. True: the result is complete. False: learn() has been told.
+  bool accept(const Search& found);
+  bool judged(Candidate& candidate);
+  void learn(const std::vector<Interaction>& interactions, const Violation& violation, int edge, const Search& found);
+  Plan plan_of(const Track& track) const;
+  PlanResult& finish(PlanStatus status, std::string reason);
+  PlanResult& no_path(const Search& search);
+  PlanResult& stopped();
+  void count_failure(const Violation& violation, const std::string& stage);
+
+  const SelSimVariant variant_;
+  const Problem& problem_;
+  const PlanOptions& options_;
+  const PlanContext& context_;
+  SelSimOptions settings_;
+  double weight_ = 1;
+
+  std::shared_ptr<const ForwardKinematics> kinematics_;
+  std::unique_ptr<EdgeEvaluator> evaluator_;
+  std::unique_ptr<LatticeModel> model_;
+  RelevantBodies everything_;
+  ObjectSet relevant_;
+  std::set<BannedEdge> banned_;
+
+  Stopwatch watch_;
+  PlanResult result_;
+  HashStream signature_;
+  bool merged_ = false;  // some state was dropped whose exact key differed from the one that closed its class
+};
+
+}  // namespace mamo
