@@ -49,6 +49,8 @@ class World {
 
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
+  /// From now on the arm passes through the object (the gripper closing on what it grasps).
+  void ignore_arm(ObjectId id);
 
  private:
   struct Impl;
