@@ -37,10 +37,10 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 Check whole_number(std::int64_t low, std::int64_t high) {
-  const std::string expected = high == INT64_MAX
-                                   ? format("a whole number of at least %lld", static_cast<long long>(low))
-                                   : format("a whole number from %lld to %lld", static_cast<long long>(low),
-                                            static_cast<long long>(high));
+  const std::string expected =
+      high == INT64_MAX
+          ? format("a whole number of at least %lld", static_cast<long long>(low))
+          : format("a whole number from %lld to %lld", static_cast<long long>(low), static_cast<long long>(high));
   return [=](const std::string& text) -> std::string {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,11 +1,12 @@
 #include "config_file.hpp"
 
-#include <sstream>
-
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <sstream>
+
 #include "console.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::tool {

@@ -1,9 +1,9 @@
 #include "console.hpp"
 
+#include <unistd.h>
+
 #include <cstdarg>
 #include <cstdlib>
-
-#include <unistd.h>
 
 #include "exit_codes.hpp"
 

@@ -5,10 +5,11 @@
 #include "exit_codes.hpp"
 #include "file_options.hpp"
 #include "kind_of_file.hpp"
-#include "mamo/io/trajectory.hpp"
 #include "output_files.hpp"
 #include "plan_file.hpp"
 #include "session.hpp"
+
+#include "mamo/io/trajectory.hpp"
 
 namespace mamo::tool {
 namespace {
@@ -31,8 +32,10 @@ Result<std::string> target(const ConvertCommand& command, bool input_is_plan) {
   }
   const std::string input = command.files.problem;
   if (to.empty())
-    return Error{"cannot tell the format of " + command.output + "; --to names it (" + join(kTo) + ")", ErrorKind::usage};
-  if (input_is_plan && to == "problem") return Error{input + " is a plan; it converts to csv or trajectory", ErrorKind::usage};
+    return Error{"cannot tell the format of " + command.output + "; --to names it (" + join(kTo) + ")",
+                 ErrorKind::usage};
+  if (input_is_plan && to == "problem")
+    return Error{input + " is a plan; it converts to csv or trajectory", ErrorKind::usage};
   if (!input_is_plan && to != "problem") return Error{input + " is no plan; it converts to problem", ErrorKind::usage};
   return to;
 }
@@ -58,8 +61,9 @@ int run(const ConvertCommand& command, Console& console) {
   const std::string& input = command.files.problem;
   if (const Status status = check_outputs({command.output}, {input, command.problem}); !status.ok())
     return fail(console, status.error());
-  Result<FileKind> kind = command.from.empty() ? kind_of_file(input)
-                                               : Result<FileKind>(command.from == "plan" ? FileKind::plan : FileKind::problem);
+  Result<FileKind> kind = command.from.empty()
+                              ? kind_of_file(input)
+                              : Result<FileKind>(command.from == "plan" ? FileKind::plan : FileKind::problem);
   if (!kind.ok()) return fail(console, kind.error());
   if (*kind == FileKind::robot)
     return fail(console, {input + " is a robot; convert takes a problem or a plan", ErrorKind::usage});
@@ -85,7 +89,9 @@ int run(const ConvertCommand& command, Console& console) {
 void add_convert(CLI::App& app, Session& session) {
   CLI::App* sub = app.add_subcommand("convert", "Scene to native problem; plan to CSV or JointTrajectory");
   auto command = std::make_shared<ConvertCommand>();
-  sub->add_option("INPUT", command->files.problem, "A problem of any known format, or a plan")->required()->check(file_name());
+  sub->add_option("INPUT", command->files.problem, "A problem of any known format, or a plan")
+      ->required()
+      ->check(file_name());
   sub->add_option("OUTPUT", command->output, "Its extension chooses the format unless --to does")
       ->required()
       ->check(file_name());
@@ -100,9 +106,7 @@ void add_convert(CLI::App& app, Session& session) {
   add_file_options(*sub, command->files);
   add_console_options(*sub, session);
   sub->footer("Example:\n  mamo convert plan_100000_SCENE.txt problem.yaml\n  mamo convert plan.json trajectory.csv");
-  sub->callback([command, &session] {
-    session.run = [command, &session] { return run(*command, session.console); };
-  });
+  sub->callback([command, &session] { session.run = [command, &session] { return run(*command, session.console); }; });
 }
 
 }  // namespace mamo::tool

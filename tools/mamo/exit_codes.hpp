@@ -16,10 +16,14 @@ inline constexpr int kOutput = 73;
 
 constexpr int exit_code(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::invalid_input: return kInvalidInput;
-    case ErrorKind::usage: return kUsage;
-    case ErrorKind::output: return kOutput;
-    case ErrorKind::internal: return kInternal;
+    case ErrorKind::invalid_input:
+      return kInvalidInput;
+    case ErrorKind::usage:
+      return kUsage;
+    case ErrorKind::output:
+      return kOutput;
+    case ErrorKind::internal:
+      return kInternal;
   }
   return kInternal;
 }

@@ -5,7 +5,8 @@
 namespace mamo::tool {
 
 void add_problem(CLI::App& command, FileOptions& options) {
-  command.add_option("PROBLEM", options.problem, "Native problem (YAML) or published shelf scene, known by its content")
+  command
+      .add_option("PROBLEM", options.problem, "Native problem (YAML) or published shelf scene, known by its content")
       ->required()
       ->check(file_name());
   add_file_options(command, options);

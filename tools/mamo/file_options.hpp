@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "console.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::tool {

@@ -1,15 +1,15 @@
 #include "interrupts.hpp"
 
-#include <atomic>
-#include <csignal>
-#include <condition_variable>
-#include <cstdlib>
-#include <fstream>
-#include <mutex>
-
 #include <sys/resource.h>
 #include <time.h>
 #include <unistd.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
 
 #include "exit_codes.hpp"
 
@@ -83,9 +83,7 @@ SignalGuard::~SignalGuard() {
   delete g_last_words.exchange(nullptr);
 }
 
-void SignalGuard::set_last_words(std::string text) {
-  delete g_last_words.exchange(new std::string(std::move(text)));
-}
+void SignalGuard::set_last_words(std::string text) { delete g_last_words.exchange(new std::string(std::move(text))); }
 
 MemoryGuard::MemoryGuard(StopSource& stop, std::int64_t limit_mb) {
   if (limit_mb <= 0) return;

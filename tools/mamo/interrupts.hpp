@@ -20,8 +20,8 @@ class SignalGuard {
   void set_last_words(std::string text);
 };
 
-/// While one lives, a thread looks at the resident memory of the process every 20 ms and requests `stop` beyond the limit.
-/// limit_mb == 0 starts no thread.
+/// While one lives, a thread looks at the resident memory of the process every 20 ms and requests `stop` beyond the
+/// limit. limit_mb == 0 starts no thread.
 class MemoryGuard {
  public:
   MemoryGuard(StopSource& stop, std::int64_t limit_mb);

@@ -10,7 +10,7 @@
 namespace mamo::tool {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<CLI::App*>& commands) {
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
   std::vector<std::string> names;
   for (const CLI::App* command : commands) names.push_back(command->get_name());
   return names;
@@ -54,8 +54,9 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "mamo " MAMO_VERSION);
   app.set_help_flag("-h,--help", "Print this help");
   app.require_subcommand(1);
-  app.footer("Example:\n  mamo plan problem.yaml --out plan.json && mamo verify problem.yaml plan.json\n"
-             "Each subcommand has its own --help.");
+  app.footer(
+      "Example:\n  mamo plan problem.yaml --out plan.json && mamo verify problem.yaml plan.json\n"
+      "Each subcommand has its own --help.");
   add_plan(app, session);
   add_verify(app, session);
   add_generate(app, session);

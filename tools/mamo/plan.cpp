@@ -5,14 +5,15 @@
 #include "exit_codes.hpp"
 #include "file_options.hpp"
 #include "interrupts.hpp"
-#include "mamo/io/result_json.hpp"
-#include "mamo/planners/registry.hpp"
-#include "mamo/planners/validate.hpp"
-#include "mamo/verify/verifier.hpp"
 #include "output_files.hpp"
 #include "planning_options.hpp"
 #include "session.hpp"
 #include "summary.hpp"
+
+#include "mamo/io/result_json.hpp"
+#include "mamo/planners/registry.hpp"
+#include "mamo/planners/validate.hpp"
+#include "mamo/verify/verifier.hpp"
 
 namespace mamo::tool {
 namespace {
@@ -85,7 +86,8 @@ int report(const PlanCommand& command, const PlanResult& result, const Problem& 
 
 int run(CLI::App& app, PlanCommand& command, Console& console) {
   const Clock::time_point start = Clock::now();
-  if (const Status status = complete(app, command.planning, console); !status.ok()) return fail(console, status.error());
+  if (const Status status = complete(app, command.planning, console); !status.ok())
+    return fail(console, status.error());
   const PlanningOptions& planning = command.planning;
   const io::LoadOptions& inputs = command.files.load;
   if (const Status status = check_outputs({command.out, planning.plan.trace_path},
@@ -111,7 +113,8 @@ int run(CLI::App& app, PlanCommand& command, Console& console) {
   }
   console.end_progress();
   if (result.status == PlanStatus::solved && !result.verified)
-    return fail(console, {"planner " + planning.planner + " returned a plan that was not verified", ErrorKind::internal});
+    return fail(console,
+                {"planner " + planning.planner + " returned a plan that was not verified", ErrorKind::internal});
   if (result.status == PlanStatus::error) return fail(console, {result.reason, ErrorKind::internal});
   if (result.status == PlanStatus::invalid) return fail(console, {result.reason, ErrorKind::invalid_input});
   result.reason = why_no_plan(result, planning.plan, planning.time_limit_s, planning.memory_limit_mb);

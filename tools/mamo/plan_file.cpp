@@ -1,10 +1,10 @@
 #include "plan_file.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
-
-#include <nlohmann/json.hpp>
 
 #include "mamo/io/load.hpp"
 

@@ -5,6 +5,7 @@
 
 #include "checks.hpp"
 #include "config_file.hpp"
+
 #include "mamo/planners/registry.hpp"
 
 namespace mamo::tool {
@@ -88,6 +89,20 @@ void add_planning_options(CLI::App& command, PlanningOptions& options) {
       ->type_name("W")
       ->check(number_at_least(1))
       ->group(kGroup);
+  // Accepted everywhere, shown in help once a planner of this build heeds them.
+  command.add_option("--schedule", plan.schedule, "How workers compute ahead; results do not depend on it")
+      ->type_name("NAME")
+      ->check(one_of({"batch", "window", "runahead"}))
+      ->group("");
+  command.add_option("--batch", plan.batch, "Edges in one batch")
+      ->type_name("K")
+      ->check(whole_number(1, 1 << 20))
+      ->group("");
+  command.add_option("--trace", plan.trace_path, "Write what the search did")
+      ->type_name("FILE")
+      ->check(file_name())
+      ->group("");
+  command.add_flag("--explain", plan.explain, "Say why")->group("");
   command.add_flag("--no-smooth", options.no_smooth, "Keep the raw path of the search")->group(kGroup);
   command.add_option("--config", options.config, "YAML file of options by name; the command line wins over it")
       ->type_name("FILE")
@@ -159,7 +174,8 @@ std::string describe_planner_options() {
     }
   std::string text;
   for (const Row& row : rows) {
-    text += format("  %-26s %s (default %s", row.doc.name.c_str(), row.doc.meaning.c_str(), row.doc.default_value.c_str());
+    text +=
+        format("  %-26s %s (default %s", row.doc.name.c_str(), row.doc.meaning.c_str(), row.doc.default_value.c_str());
     text += row.planners.size() == planner_names().size() ? ")\n" : "; " + join(row.planners) + ")\n";
   }
   return text.empty() ? "" : "Options of the planners, for --set and --config:\n" + text;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "console.hpp"
+
 #include "mamo/model/planner.hpp"
 
 namespace mamo::tool {

@@ -1,9 +1,9 @@
 // One run of the tool: parsing fills it, main runs what was chosen.
 #pragma once
 
-#include <functional>
-
 #include <CLI/CLI.hpp>
+
+#include <functional>
 
 #include "console.hpp"
 

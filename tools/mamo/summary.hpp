@@ -4,6 +4,7 @@
 #include <string>
 
 #include "console.hpp"
+
 #include "mamo/model/planner.hpp"
 
 namespace mamo::tool {

@@ -3,11 +3,12 @@
 #include "exit_codes.hpp"
 #include "file_options.hpp"
 #include "interrupts.hpp"
-#include "mamo/io/result_json.hpp"
-#include "mamo/verify/verifier.hpp"
 #include "plan_file.hpp"
 #include "session.hpp"
 #include "summary.hpp"
+
+#include "mamo/io/result_json.hpp"
+#include "mamo/verify/verifier.hpp"
 
 namespace mamo::tool {
 namespace {
@@ -59,13 +60,13 @@ void add_verify(CLI::App& app, Session& session) {
   CLI::App* sub = app.add_subcommand("verify", "Replay a plan in full physics and judge it");
   auto command = std::make_shared<VerifyCommand>();
   add_problem(*sub, command->files);
-  sub->add_option("PLAN", command->plan, "Result object of `mamo plan`, or its bare plan")->required()->check(file_name());
+  sub->add_option("PLAN", command->plan, "Result object of `mamo plan`, or its bare plan")
+      ->required()
+      ->check(file_name());
   sub->add_flag("--json", command->json, "Print the verdict object instead of a summary");
   add_console_options(*sub, session);
   sub->footer("Exit code 0: it holds; 4: it does not.\nExample:\n  mamo verify problem.yaml plan.json");
-  sub->callback([command, &session] {
-    session.run = [command, &session] { return run(*command, session.console); };
-  });
+  sub->callback([command, &session] { session.run = [command, &session] { return run(*command, session.console); }; });
 }
 
 }  // namespace mamo::tool
