@@ -2,7 +2,14 @@
 
 #include "checks.hpp"
 
+#include "mamo/collision/collision_checker.hpp"
+
 namespace mamo::tool {
+namespace {
+
+constexpr std::uint64_t kSelfPairSeed = 1;  // not --seed: the robot is the same whatever the planner draws
+
+}  // namespace
 
 void add_problem(CLI::App& command, FileOptions& options) {
   command
@@ -34,6 +41,10 @@ void add_file_options(CLI::App& command, FileOptions& options) {
       ->type_name("KIND")
       ->check(one_of({"reach", "retrieve"}))
       ->group(group);
+  command.add_option("--constraints", options.load.constraints, "Profile that replaces the file's own")
+      ->type_name("PROFILE")
+      ->check(one_of({"contact-only", "full", "legacy"}))
+      ->group(group);
   command.add_option("--movable", options.load.movable, "Glob of object ids to make movable; repeatable")
       ->type_name("GLOB")
       ->allow_extra_args(false)
@@ -62,7 +73,14 @@ io::LoadOptions load_options(const FileOptions& options) {
 
 Result<Problem> load(const FileOptions& options, Console& console) {
   Result<Problem> problem = io::load_problem(options.problem, load_options(options));
-  if (problem.ok()) console.warn_all(problem->warnings);
+  if (!problem.ok()) return problem;
+  console.warn_all(problem->warnings);
+  // Reading a file knows no collision checker: which links to test against each other is settled here.
+  Robot& robot = problem->robot;
+  choose_self_pairs(robot, problem->robot_files.disabled, !problem->robot_files.srdf.empty(), kSelfPairSeed);
+  for (const auto& [a, b] : robot.disabled_pairs)
+    console.note("links '" + robot.model->links[a.index()].name + "' and '" + robot.model->links[b.index()].name +
+                 "' are not tested against each other: they collide always or at the start");
   return problem;
 }
 

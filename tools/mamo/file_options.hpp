@@ -25,7 +25,7 @@ void add_file_options(CLI::App& command, FileOptions& options);
 /// Options as the loaders take them.
 io::LoadOptions load_options(const FileOptions& options);
 
-/// Loads and reports warnings.
+/// Loads, reports warnings, chooses the self-collision pairs: ready for validate(), planners and the verifier.
 Result<Problem> load(const FileOptions& options, Console& console);
 
 }  // namespace mamo::tool
