@@ -47,10 +47,10 @@ class World {
   /// against fixtures and static immovables: ask collision).
   void contacts(std::vector<Contact>& out) const;
 
-  /// From now on until reset() there is no contact between the robot and this object (a gripper closing on it).
-  void ignore_robot(ObjectId id);
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
+  /// From now on the arm passes through the object (the gripper closing on what it grasps).
+  void ignore_arm(ObjectId id);
 
  private:
   struct Impl;
