@@ -101,7 +101,7 @@ class Replay {
     const int count = static_cast<int>(line_.end_s.size());
     for (;;) {
       if (begun_ < count && begun_ == ended_ && line_.begin_s[static_cast<std::size_t>(begun_)] <= time_s + 1e-9) {
-        if (begun_ == grasp_) grip_ = Grip::closing, world_.ignore_arm(retrieved_);
+        if (begun_ == grasp_) grip_ = Grip::closing, world_.ignore_robot(retrieved_);
         ++begun_;
       } else if (ended_ < begun_ && line_.end_s[static_cast<std::size_t>(ended_)] <= time_s + 1e-9 &&
                  (ended_ + 1 < count || settled)) {

@@ -56,10 +56,10 @@ class World {
   /// against fixtures and static immovables: ask collision).
   void contacts(std::vector<Contact>& out) const;
 
+  /// From now on until reset() there is no contact between the robot and this object (a gripper closing on it).
+  void ignore_robot(ObjectId id);
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
-  /// From now on the arm passes through the object (the gripper closing on what it grasps).
-  void ignore_arm(ObjectId id);
 
   /// Pairs of bodies (a < b, sorted; objects, fixtures and the floor, not the robot; at least one an object) of
   /// which `state` puts the surfaces closer than `tolerance` (m). Ends what reset() began: call reset() next.
