@@ -5,8 +5,8 @@ import subprocess
 import tempfile
 import unittest
 
-TOOL = os.environ["MAMO_TOOL"]
-SOURCE = os.environ["MAMO_SOURCE_DIR"]
+SOURCE = os.environ.get("MAMO_SOURCE_DIR", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+TOOL = os.environ.get("MAMO_TOOL", os.path.join(SOURCE, "build/release/mamo"))
 
 # Seen from above: three links of 0.3 m turn about vertical axes, 0.5 m above the floor; the goal is reached by joints.
 #
