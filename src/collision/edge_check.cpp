@@ -199,12 +199,15 @@ bool EdgeCheck::test_obstacles(Node& node, double s, double s_low, double reach,
     const ObstaclePart& obstacle = obstacles_.parts()[static_cast<std::size_t>(pair.obstacle)];
     // A touched object is of interest only where the edge might have touched something earlier.
     if (touched_[obstacle.object.index()] && s_low >= out.first_touch) continue;
-    const Relation relation = relate(arm_.parts()[static_cast<std::size_t>(pair.part)].solid, placed(pair.part),
-                                     obstacle.padded, obstacle.X_WP, speed(node.stretch, pair.part) * reach);
+    const bool forbidden = role_[static_cast<std::size_t>(pair.obstacle)] == forbidden_role;
+    const Relation relation =
+        relate(arm_.parts()[static_cast<std::size_t>(pair.part)].solid, placed(pair.part),
+               forbidden ? obstacle.plain : obstacle.padded, forbidden ? obstacle.X_WS : obstacle.X_WP,
+               speed(node.stretch, pair.part) * reach);
     if (relation == Relation::apart) continue;
     pairs_.push_back(pair);
     if (relation != Relation::hit) continue;
-    if (role_[static_cast<std::size_t>(pair.obstacle)] == forbidden_role) {
+    if (forbidden) {
       out.touched = {obstacle.object};
       out.first_touch = CollisionReport{}.first_touch;
       return false;

@@ -200,7 +200,7 @@ TEST(Edge, AHeldObjectIsRobotAndNoLongerObstacle) {
   const Robot robot = fixtures::pr2_like_arm();
   Scene scene = fixtures::cluttered_shelf(10, 5, 3);
   scene.objects[6].shapes.push_back({Sphere{0.05}, fixtures::at(0, 0, 0.12)});  // a body of two shapes
-  const CollisionOptions options;
+  const CollisionOptions options{0.01, 0.0055};
   CollisionChecker checker(std::make_shared<ForwardKinematics>(robot), scene, options);
   fixtures::BruteForce plain(robot, scene, 0), padded(robot, scene, options.padding);
   const LinkId palm = robot.model->find_link("palm");

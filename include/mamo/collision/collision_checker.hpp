@@ -13,10 +13,11 @@ namespace mamo {
 
 struct CollisionOptions {
   /// No collision point of the arm moves further than this between two checked configurations (m).
-  double edge_step = 0.01;
-  /// Objects and fixtures are inflated by this when an edge is classified: half the edge step, plus what the
-  /// simulator calls contact (m). 0 inflates nothing.
-  double padding = 0.0055;
+  double edge_step = 0.002;
+  /// Watched objects are inflated by this when an edge is classified: at least half the edge step plus what the
+  /// simulator calls contact (m). What is forbidden is not inflated: a start or a goal may be close to a wall, and
+  /// the fine step is what keeps the arm out of it between two checks.
+  double padding = 0.003;
 };
 
 /// What a configuration or an edge hits. Bodies the caller asked about, in order of id.
@@ -47,9 +48,9 @@ class CollisionChecker {
   /// stop_at_first: return as soon as anything is hit.
   void check(const Eigen::VectorXd& q, const ObjectSet& against, bool stop_at_first, CollisionReport& out);
 
-  /// The straight edge from q0 to q1 (linear in joints), coarse to fine, both ends included; padded.
+  /// The straight edge from q0 to q1 (linear in joints), coarse to fine, both ends included.
   /// Self-collision and bodies in `forbidden` end the check at once (report.self, or touched holds that
-  /// body, and the return value is false). Bodies in `watched` are collected in report.touched.
+  /// body, and the return value is false). Bodies in `watched` are padded and collected in report.touched.
   bool check_edge(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const ObjectSet& forbidden,
                   const ObjectSet& watched, CollisionReport& out);
 
