@@ -178,8 +178,8 @@ void EdgeCheck::gather(Node& root, double reach) {
   root.pairs = {pairs_.size(), pairs_.size()};
   for (int part : arm_.moving()) {
     const Placed& X = placed(part);
-    const Eigen::Vector3d half = half_box(arm_.parts()[static_cast<std::size_t>(part)].solid, X.R).array() +
-                                 speed(root.stretch, part) * reach;
+    const Eigen::Vector3d half =
+        half_box(arm_.parts()[static_cast<std::size_t>(part)].solid, X.R).array() + speed(root.stretch, part) * reach;
     for (std::int32_t k : active_) {
       const ObstaclePart& obstacle = obstacles_.parts()[static_cast<std::size_t>(k)];
       if (boxes_meet(X.p, half, obstacle.X_WP.p, obstacle.half_box_padded)) pairs_.push_back({part, k});

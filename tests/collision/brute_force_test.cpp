@@ -1,8 +1,10 @@
 // The checker against all pairs of fcl::collide, on configurations and on the samples of edges.
-#include "mamo/collision/collision_checker.hpp"
 #include "support/brute_force.hpp"
+
 #include "support/hulls.hpp"
 #include "support/robots.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo {
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,9 @@ struct CollisionOptions {
 
 /// What a configuration or an edge hits. Bodies the caller asked about, in order of id.
 struct CollisionReport {
-  bool self = false;                // two links of the robot (first_self names them)
+  bool self = false;  // two links of the robot (first_self names them)
   std::pair<LinkId, LinkId> first_self;
-  std::vector<ObjectId> touched;    // sorted, unique
+  std::vector<ObjectId> touched;  // sorted, unique
   /// Of an edge: the smallest checked parameter (0 at q0, 1 at q1) at which a watched object is touched; else 2.
   double first_touch = 2;
   bool free() const { return !self && touched.empty(); }
@@ -65,7 +66,7 @@ class CollisionChecker {
   /// Objects overlapping one another by more than `tolerance` (m) at the current state; pairs a < b.
   std::vector<std::pair<ObjectId, ObjectId>> overlapping_objects(double tolerance);
 
-  /// Configurations checked so far.
+  /// Configurations at which the arm was posed so far; an edge proven free from its middle poses it once.
   std::int64_t checks() const;
   const CollisionOptions& options() const;
 
