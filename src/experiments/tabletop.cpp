@@ -23,7 +23,7 @@ namespace {
 //        -0.80 +---------------+
 //            0.45            1.05 x
 constexpr double kTableTop = 0.72, kTableThickness = 0.04;
-constexpr double kTableX[2] = {0.45, 1.05}, kTableY[2] = {-0.80, 0.40};
+constexpr double kTableFront = 0.45, kTableDepth = 0.60, kTableMiddle = -0.20, kTableWidth = 1.20;
 constexpr double kStripX[2] = {0.52, 0.88}, kStripMiddle = -0.25;
 constexpr double kAreaPerObject = 0.020;          // m^2
 constexpr double kStripWidth[2] = {0.30, 1.00};   // least and most
@@ -74,10 +74,9 @@ class Generator {
     Object o;
     o.id = "table";
     o.kind = ObjectKind::fixture;
-    o.shapes = {
-        {Box{{kTableX[1] - kTableX[0], kTableY[1] - kTableY[0], kTableThickness}}, Eigen::Isometry3d::Identity()}};
+    o.shapes = {{Box{{kTableDepth, kTableWidth, kTableThickness}}, Eigen::Isometry3d::Identity()}};
     o.X_WO.translation() =
-        Eigen::Vector3d((kTableX[0] + kTableX[1]) / 2, (kTableY[0] + kTableY[1]) / 2, kTableTop - kTableThickness / 2);
+        Eigen::Vector3d(kTableFront + kTableDepth / 2, kTableMiddle, kTableTop - kTableThickness / 2);
     o.friction = 0.8;
     return o;
   }
@@ -137,10 +136,8 @@ class Generator {
     const InverseKinematics inverse(*kinematics_);
     for (int attempt = 0; attempt < kGoalsPerScene; ++attempt) {
       const Eigen::Isometry3d X_WT = goal_pose(attempt);
-      const auto is_free = [&](const Eigen::VectorXd& q) {
-        checker_->check(q, walls, true, report_);
-        return report_.free();
-      };
+      // As planners check it, with the padding of an edge: a goal free by less than that is none to them.
+      const auto is_free = [&](const Eigen::VectorXd& q) { return checker_->check_edge(q, q, walls, {}, report_); };
       IkOptions options;
       options.starts *= 2;
       if (!inverse.solve_many(X_WT, problem_.q_start, 1, 1, options, is_free).empty()) {

@@ -26,9 +26,9 @@ struct TabletopSpec {
 /// any roll up to a right angle).
 ///
 /// A goal is drawn again only when no inverse-kinematics solution (all restarts) is free of the robot itself,
-/// fixtures and immovables; after 60 such goals the scene is drawn again. No planner is asked. `generated` holds
-/// generator, seed, index, goal_redraws, scene_redraws and goal_needs_contact ("yes": see below, "unknown").
-/// name and path are "tabletop-<seed>-<index>.yaml". Errors: usage (counts out of range, no room).
+/// fixtures and immovables (padded as planners pad edges); after 60 such goals the scene is drawn again. No planner is
+/// asked. `generated` holds generator, seed, index, goal_redraws, scene_redraws and goal_needs_contact ("yes": see
+/// below, "unknown"). name and path are "tabletop-<seed>-<index>.yaml". Errors: usage (counts out of range, no room).
 Result<Problem> generate_tabletop(const TabletopSpec& spec);
 
 /// True only if no configuration within the goal's tolerances is free of contact with a movable object: the links
