@@ -25,7 +25,7 @@ namespace {
 constexpr double kTableTop = 0.72, kTableThickness = 0.04;
 constexpr double kTableFront = 0.45, kTableDepth = 0.60, kTableMiddle = -0.20, kTableWidth = 1.20;
 constexpr double kStripX[2] = {0.52, 0.88}, kStripMiddle = -0.25;
-constexpr double kAreaPerObject = 0.020;          // m^2
+constexpr double kAreaPerObject = 0.023;          // m^2
 constexpr double kStripWidth[2] = {0.30, 1.00};   // least and most
 constexpr double kGap = 0.008;                    // m between objects
 constexpr double kShoulder[2] = {-0.05, -0.188};  // axis of the shoulder's pan joint
