@@ -136,7 +136,7 @@ class Generator {
     const InverseKinematics inverse(*kinematics_);
     for (int attempt = 0; attempt < kGoalsPerScene; ++attempt) {
       const Eigen::Isometry3d X_WT = goal_pose(attempt);
-      // As planners check it, with the padding of an edge: a goal free by less than that is none to them.
+      // As planners check an edge: a goal that is free by less is none to them.
       const auto is_free = [&](const Eigen::VectorXd& q) { return checker_->check_edge(q, q, walls, {}, report_); };
       IkOptions options;
       options.starts *= 2;

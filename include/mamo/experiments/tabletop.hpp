@@ -26,8 +26,8 @@ struct TabletopSpec {
 /// any roll up to a right angle).
 ///
 /// A goal is drawn again only when no inverse-kinematics solution (all restarts) is free of the robot itself,
-/// fixtures and immovables (padded as planners pad edges); after 60 such goals the scene is drawn again. No planner is
-/// asked. `generated` holds generator, seed, index, goal_redraws, scene_redraws and goal_needs_contact ("yes": see
+/// fixtures and immovables, checked as planners check an edge; after 60 such goals the scene is drawn again. No planner
+/// is asked. `generated` holds generator, seed, index, goal_redraws, scene_redraws and goal_needs_contact ("yes": see
 /// below, "unknown"). name and path are "tabletop-<seed>-<index>.yaml". Errors: usage (counts out of range, no room).
 Result<Problem> generate_tabletop(const TabletopSpec& spec);
 
