@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "io/text.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {
@@ -55,7 +56,7 @@ bool write_all(int fd, const std::string& content) {
 
 /// Pipes and devices (/dev/stdout) are written in place: there is nothing to replace.
 bool is_special(const std::string& path) {
-  struct stat info{};
+  struct stat info {};
   return ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
@@ -72,8 +73,9 @@ std::string behind_links(const std::string& path) {
 Result<std::string> read_file(const std::string& path, std::size_t max_bytes) {
   if (path.empty()) return Error{"no file name given"};
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0 && errno == ENOENT) return Error{one_line(path) + ": no such file"};
   if (file.fd < 0) return cannot(path, "cannot be read", ErrorKind::invalid_input);
-  struct stat info{};
+  struct stat info {};
   if (::fstat(file.fd, &info) != 0) return cannot(path, "cannot be read", ErrorKind::invalid_input);
   if (S_ISDIR(info.st_mode)) return Error{one_line(path) + ": is a folder, a file was expected"};
   const std::size_t size = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) : 0;

@@ -9,6 +9,7 @@
 #include "io/shelf_scene.hpp"
 #include "io/task_reader.hpp"
 #include "io/text.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/profile.hpp"
 
@@ -20,9 +21,11 @@ constexpr std::size_t kMaxProblemBytes = 16u << 20;
 Status check_options(const LoadOptions& options) {
   const auto wrong = [](const std::string& message) { return Error{message, ErrorKind::usage}; };
   if (!options.constraints.empty() && !parse_profile(options.constraints))
-    return wrong("the constraints profile is " + in_quotes(options.constraints) + ", expected contact-only, full or legacy");
+    return wrong("the constraints profile is " + in_quotes(options.constraints) +
+                 ", expected contact-only, full or legacy");
   if (options.default_mass && !(*options.default_mass >= kMass.least && *options.default_mass <= kMass.most))
-    return wrong("--default-mass is " + shortest_number(*options.default_mass) + ", must be " + std::string(kMass.words));
+    return wrong("--default-mass is " + shortest_number(*options.default_mass) + ", must be " +
+                 std::string(kMass.words));
   if (options.default_friction && !(*options.default_friction >= 0 && *options.default_friction <= kFriction.most))
     return wrong("--default-friction is " + shortest_number(*options.default_friction) + ", must be " +
                  std::string(kFriction.words));
@@ -47,7 +50,8 @@ Status check_globs(const LoadOptions& options, const Scene& scene) {
 Status refuse_foreign_yaml(const YamlValue& root, const std::string& path) {
   const auto refuse = [&](const std::string& what) { return Error{one_line(path) + ": " + what}; };
   const auto has = [&](const char* key) { return root.find(key) != nullptr; };
-  if (!root.is_map()) return error_at(path, root.line, root.column, "a problem file is a map that starts with 'format: mamo-problem/1'");
+  if (!root.is_map())
+    return error_at(path, root.line, root.column, "a problem file is a map that starts with 'format: mamo-problem/1'");
   if (has("format")) return {};
   if ((has("world") && (has("robot_state") || has("robot_model_name") || has("fixed_frame_transforms"))) ||
       has("allowed_collision_matrix") || has("collision_objects"))

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "io/text.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/profile.hpp"
 
@@ -31,8 +32,8 @@ std::string absolute(const std::string& path) {
 std::string portable(const std::string& path) {
   const std::string whole = absolute(path);
   const char* data = std::getenv("MAMO_DATA_DIR");
-  for (const std::string& folder : {std::string(data ? data : ""), std::string(MAMO_SOURCE_DATA_DIR),
-                                    std::string(MAMO_INSTALL_DATA_DIR)}) {
+  for (const std::string& folder :
+       {std::string(data ? data : ""), std::string(MAMO_SOURCE_DATA_DIR), std::string(MAMO_INSTALL_DATA_DIR)}) {
     if (folder.empty()) continue;
     const std::string prefix = absolute(folder) + "/";
     if (whole.starts_with(prefix)) return whole.substr(prefix.size());
@@ -113,7 +114,8 @@ class Writer {
     for (int v = 0; v < robot.model->variables; ++v) {
       const JointId id = robot.model->variable_joint[static_cast<std::size_t>(v)];
       const Joint& joint = robot.model->joints[id.index()];
-      const bool in_group = std::find(robot.group.joints.begin(), robot.group.joints.end(), id) != robot.group.joints.end();
+      const bool in_group =
+          std::find(robot.group.joints.begin(), robot.group.joints.end(), id) != robot.group.joints.end();
       if (in_group || robot.posture[v] == std::clamp(0.0, joint.lower, joint.upper)) continue;
       fixed += (fixed.empty() ? "{" : ", ") + yaml_string(joint.name) + ": " + yaml_number(robot.posture[v]);
     }
@@ -186,7 +188,8 @@ class Writer {
     };
     if (c.max_tilt != usual.max_tilt) add("max_tilt", yaml_number(c.max_tilt));
     if (c.max_speed != usual.max_speed) add("max_speed", yaml_number(c.max_speed));
-    if (c.may_leave_support != usual.may_leave_support) add("may_leave_support", c.may_leave_support ? "true" : "false");
+    if (c.may_leave_support != usual.may_leave_support)
+      add("may_leave_support", c.may_leave_support ? "true" : "false");
     if (c.max_displacement != usual.max_displacement) add("max_displacement", yaml_number(c.max_displacement));
     if (c.touch != usual.touch) add("touch", std::string(to_string(c.touch)));
     if (!own.empty()) text_ += own + "}";

@@ -7,6 +7,7 @@
 
 #include "io/resource_path.hpp"
 #include "io/text.hpp"
+
 #include "mamo/io/mesh.hpp"
 #include "mamo/io/nearest_name.hpp"
 #include "mamo/io/profile.hpp"
@@ -66,8 +67,7 @@ Shape read_mesh(const YamlValue& value, const std::string& what, const ObjectCon
 Shape read_shape(const YamlValue& value, const std::string& what, const ObjectContext& context,
                  Complaints& complaints) {
   StrictMap map(value, "shape of " + what, {"box", "cylinder", "sphere", "mesh"}, complaints);
-  if (value.members.size() != 1)
-    map.complain(map.what() + " needs exactly one of box, cylinder, sphere, mesh");
+  if (value.members.size() != 1) map.complain(map.what() + " needs exactly one of box, cylinder, sphere, mesh");
   if (const YamlValue* box = map.find("box")) {
     StrictMap sizes(*box, "box of " + what, {"size"}, complaints);
     return Box{read_numbers(sizes.need("size"), 3, sizes.name_of("size"), kLength, complaints)};
@@ -133,7 +133,8 @@ double read_mass(StrictMap& map, ObjectKind kind, const LoadOptions& options, Co
 Object read_object(const YamlValue& value, std::size_t index, const ObjectContext& context, Complaints& complaints) {
   Object object;
   const YamlValue* id = value.find("id");
-  const std::string what = id && id->is_scalar() ? "object " + in_quotes(id->scalar) : "object " + std::to_string(index);
+  const std::string what =
+      id && id->is_scalar() ? "object " + in_quotes(id->scalar) : "object " + std::to_string(index);
   StrictMap map(value, what,
                 {"id", "shape", "shapes", "pose", "mass", "friction", "fixture", "movable", "touch", "constraints"},
                 complaints);
@@ -197,7 +198,8 @@ std::vector<Object> read_objects(const YamlValue& list, const ObjectContext& con
     if (id == "robot" || id == "floor")
       complaints.add(*list.items[i].find("id"), "the id " + in_quotes(id) + " is taken: results use it for the " + id);
     if (!ids.insert(id).second)
-      complaints.add(*list.items[i].find("id"), "a second object with the id " + in_quotes(id) + ", ids must be unique");
+      complaints.add(*list.items[i].find("id"),
+                     "a second object with the id " + in_quotes(id) + ", ids must be unique");
   }
   return objects;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {

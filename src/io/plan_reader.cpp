@@ -1,11 +1,13 @@
 // A plan out of JSON: a result object or its bare plan. What is wrong with its motion is for `verify` to say; here
 // only what cannot be held in a Plan is refused.
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "io/recognise.hpp"
 #include "io/text.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/nearest_name.hpp"
 
@@ -166,7 +168,8 @@ Result<Plan> load_plan(const std::string& path, const Problem& problem) {
   } catch (const Json::parse_error& e) {
     const auto [line, column] = place_of(*text, e.byte);
     const bool truncated = e.byte > text->size();
-    return error_at(path, line, column, truncated ? "bad JSON: the file ends too early" : "bad JSON, a plan was expected");
+    return error_at(path, line, column,
+                    truncated ? "bad JSON: the file ends too early" : "bad JSON, a plan was expected");
   } catch (const Json::exception& e) {
     return error_at(path, 0, 0, "bad JSON: " + one_line(e.what()));
   }

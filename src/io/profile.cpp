@@ -17,11 +17,16 @@ std::optional<Profile> parse_profile(std::string_view name) {
 
 std::string_view to_string(Touch touch) {
   switch (touch) {
-    case Touch::allowed: return "allowed";
-    case Touch::robot: return "robot";
-    case Touch::objects: return "objects";
-    case Touch::forbidden: return "forbidden";
-    case Touch::support: return "support";
+    case Touch::allowed:
+      return "allowed";
+    case Touch::robot:
+      return "robot";
+    case Touch::objects:
+      return "objects";
+    case Touch::forbidden:
+      return "forbidden";
+    case Touch::support:
+      return "support";
   }
   return "unknown";
 }

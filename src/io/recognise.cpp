@@ -28,9 +28,12 @@ Status check_is_text(const std::string& text, const std::string& path) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const unsigned char c = static_cast<unsigned char>(text[i]);
     if (c == '\n') ++line;
-    if (c == 0) return Error{one_line(path) + ": is a binary file (a zero byte at offset " + std::to_string(i) + "), text was expected"};
+    if (c == 0)
+      return Error{one_line(path) + ": is a binary file (a zero byte at offset " + std::to_string(i) +
+                   "), text was expected"};
     if (c < 0x20 && c != '\n' && c != '\t' && c != '\r' && c != '\f' && ++controls > 8)
-      return Error{one_line(path) + ":" + std::to_string(line) + ": is a binary file (control characters), text was expected"};
+      return Error{one_line(path) + ":" + std::to_string(line) +
+                   ": is a binary file (control characters), text was expected"};
   }
   return {};
 }
@@ -40,7 +43,8 @@ Status refuse_foreign(const std::string& text, const std::string& path) {
   const auto refuse = [&](const std::string& what) { return Error{one_line(path) + ": " + what}; };
   if (head.starts_with("<")) {
     if (head.find("<robot") != std::string_view::npos)
-      return refuse("looks like a robot description (URDF or SRDF), a problem was expected (give the robot with --robot)");
+      return refuse(
+          "looks like a robot description (URDF or SRDF), a problem was expected (give the robot with --robot)");
     if (head.find("<sdf") != std::string_view::npos)
       return refuse("looks like an SDFormat world, which is not supported as a problem");
     return refuse("looks like XML, a problem was expected");

@@ -1,7 +1,8 @@
 #include "mamo/io/result_json.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include <cmath>
 
 #include "mamo/common/hash.hpp"
 

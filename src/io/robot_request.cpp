@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/text.hpp"
+
 #include "mamo/io/nearest_name.hpp"
 
 namespace mamo::io {
@@ -183,9 +184,10 @@ class Installer {
 
 RobotRequest read_robot(const YamlValue& value, Complaints& complaints) {
   RobotRequest request;
-  StrictMap map(value, "robot",
-                {"urdf", "srdf", "base", "tip", "joints", "group", "start", "fixed", "pose", "package_path", "speed_scale"},
-                complaints);
+  StrictMap map(
+      value, "robot",
+      {"urdf", "srdf", "base", "tip", "joints", "group", "start", "fixed", "pose", "package_path", "speed_scale"},
+      complaints);
   request.urdf = map.need_text("urdf");
   request.srdf = map.text("srdf");
   request.spec.base = map.text("base");

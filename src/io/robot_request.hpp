@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/robot_setup.hpp"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/model/scene.hpp"
 
 namespace mamo::io {

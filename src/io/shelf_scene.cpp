@@ -8,44 +8,18 @@
 #include "io/object_reader.hpp"
 #include "io/robot_request.hpp"
 #include "io/text.hpp"
+#include "io/text_lines.hpp"
+
 #include "mamo/io/profile.hpp"
 
 namespace mamo::io {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
 
 Eigen::Matrix3d rotation(double roll, double pitch, double yaw) {
   return (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
           Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
-
-/// Hands out the lines one by one and knows their number.
-class Lines {
- public:
-  explicit Lines(std::string_view text) : rest_(text) {}
-  /// The next line that is not blank; false at the end.
-  bool next(std::string_view& line) {
-    while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
-      line = trimmed(rest_.substr(0, end));
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      ++number_;
-      if (!line.empty()) return true;
-    }
-    return false;
-  }
-  int number() const { return number_; }
-
- private:
-  std::string_view rest_;
-  int number_ = 0;
-};
 
 /// The goal line of the file: x, y, z and three angles of which only the heading has a meaning.
 struct Goal {
@@ -108,16 +82,6 @@ class ShelfReader {
     return static_cast<int>(*n);
   }
 
-  static std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    for (;;) {
-      const std::size_t comma = line.find(',');
-      fields.push_back(trimmed(line.substr(0, comma)));
-      if (comma == std::string_view::npos) return fields;
-      line.remove_prefix(comma + 1);
-    }
-  }
-
   double field_number(std::string_view field, const std::string& what, const NumberRule& rule) {
     const std::optional<double> n = parse_number(field);
     if (n && std::isfinite(*n) && *n >= rule.least && *n <= rule.most) return *n;
@@ -136,7 +100,7 @@ class ShelfReader {
 
   /// id, shape, type, x, y, z, roll, pitch, yaw, sx, sy, sz, mass, mu, movable
   void read_object(std::string_view line) {
-    const std::vector<std::string_view> f = fields_of(line);
+    const std::vector<std::string_view> f = comma_fields(line);
     if (f.size() != 15)
       return fail("an object has " + std::to_string(f.size()) +
                   " fields, expected 15 (id,shape,type,x,y,z,roll,pitch,yaw,sx,sy,sz,mass,mu,movable)");
@@ -196,7 +160,7 @@ class ShelfReader {
   }
 
   void read_base() {
-    const std::vector<std::string_view> f = fields_of(need_line("the robot's base pose"));
+    const std::vector<std::string_view> f = comma_fields(need_line("the robot's base pose"));
     if (complaints_.any()) return;
     if (f.size() != 7) return fail("the robot's base pose needs 7 numbers (x,y,z,qx,qy,qz,qw)");
     std::array<double, 7> v{};
@@ -214,7 +178,7 @@ class ShelfReader {
   }
 
   void read_goal() {
-    const std::vector<std::string_view> f = fields_of(need_line("the pre-grasp pose"));
+    const std::vector<std::string_view> f = comma_fields(need_line("the pre-grasp pose"));
     if (complaints_.any()) return;
     if (f.size() != 6) return fail("the pre-grasp pose needs 6 numbers (x,y,z,yaw,pitch,roll)");
     std::array<double, 6> v{};
@@ -248,7 +212,8 @@ class ShelfReader {
   void make_task() {
     Retrieve retrieve;
     retrieve.object = problem_.scene.find(target_);
-    if (!retrieve.object.valid()) return fail("the object of interest " + in_quotes(target_) + " is not among the objects");
+    if (!retrieve.object.valid())
+      return fail("the object of interest " + in_quotes(target_) + " is not among the objects");
     const Object& target = problem_.scene[retrieve.object];
     if (target.fixture()) return fail("the object of interest " + in_quotes(target_) + " is a part of the shelf");
     if (target.movable()) warn("the object of interest " + in_quotes(target_) + " is movable");
@@ -258,19 +223,21 @@ class ShelfReader {
     const double away = (goal_->position - target.X_WO.translation()).head<2>().norm();
     if (away > kUsualDistance)
       warn("the pre-grasp pose is " + shortest_number(std::round(away * 1000) / 1000) +
-           " m from the object of interest (plan view), usually it is within " + shortest_number(kUsualDistance) + " m");
+           " m from the object of interest (plan view), usually it is within " + shortest_number(kUsualDistance) +
+           " m");
     problem_.task = retrieve;
   }
 
   static constexpr std::array<std::string_view, 6> kPoseNames = {"x", "y", "z", "roll", "pitch", "yaw"};
-  static constexpr std::array<std::string_view, 7> kArm = {"shoulder_pan", "shoulder_lift", "upper_arm_roll", "elbow_flex",
-                                                           "forearm_roll", "wrist_flex",    "wrist_roll"};
-  static constexpr std::array<double, 7> kHome = {-1.68651, -0.184315, -1.67611, -1.66215, 0.285096, -0.658798, 1.41563};
+  static constexpr std::array<std::string_view, 7> kArm = {
+      "shoulder_pan", "shoulder_lift", "upper_arm_roll", "elbow_flex", "forearm_roll", "wrist_flex", "wrist_roll"};
+  static constexpr std::array<double, 7> kHome = {-1.68651, -0.184315, -1.67611, -1.66215,
+                                                  0.285096, -0.658798, 1.41563};
   static constexpr std::array<double, 7> kParked = {
       std::numbers::pi / 2, std::numbers::pi / 2, 0, -std::numbers::pi / 4, 0, 0, 0};
   static constexpr double kUsualDistance = 0.12;  // m
 
-  Lines lines_;
+  TextLines lines_;
   const LoadOptions& options_;
   Problem& problem_;
   Complaints& complaints_;
@@ -283,7 +250,7 @@ class ShelfReader {
 }  // namespace
 
 bool looks_like_shelf_scene(const std::string& text) {
-  Lines lines(text);
+  TextLines lines(text);
   std::string_view first;
   return lines.next(first) && first == "O";
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {

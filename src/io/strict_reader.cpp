@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "io/text.hpp"
+
 #include "mamo/io/nearest_name.hpp"
 
 namespace mamo::io {
@@ -11,10 +12,14 @@ namespace {
 
 std::string kind_of(const YamlValue& value) {
   switch (value.kind) {
-    case YamlValue::Kind::null: return "nothing";
-    case YamlValue::Kind::scalar: return in_quotes(value.scalar);
-    case YamlValue::Kind::list: return "a list";
-    case YamlValue::Kind::map: return "a map";
+    case YamlValue::Kind::null:
+      return "nothing";
+    case YamlValue::Kind::scalar:
+      return in_quotes(value.scalar);
+    case YamlValue::Kind::list:
+      return "a list";
+    case YamlValue::Kind::map:
+      return "a map";
   }
   return "something else";
 }
@@ -31,7 +36,8 @@ Eigen::Matrix3d read_quaternion(const YamlValue& value, const std::string& what,
   if (complaints.any()) return Eigen::Matrix3d::Identity();
   const double norm = v.norm();
   if (!(norm > 1e-3 && norm < 1e3)) {
-    complaints.add(value, what + " cannot be normalised (norm " + shortest_number(norm) + "), expected x y z w of norm 1");
+    complaints.add(value,
+                   what + " cannot be normalised (norm " + shortest_number(norm) + "), expected x y z w of norm 1");
     return Eigen::Matrix3d::Identity();
   }
   if (std::abs(norm - 1) > 1e-3)
@@ -87,7 +93,8 @@ Eigen::VectorXd read_numbers(const YamlValue& value, Eigen::Index count, const s
     return out;
   }
   for (Eigen::Index i = 0; i < count; ++i)
-    out[i] = read_number(value.items[static_cast<std::size_t>(i)], what + "[" + std::to_string(i) + "]", rule, complaints);
+    out[i] =
+        read_number(value.items[static_cast<std::size_t>(i)], what + "[" + std::to_string(i) + "]", rule, complaints);
   return out;
 }
 
@@ -97,7 +104,8 @@ Eigen::Isometry3d read_pose(const YamlValue& value, const std::string& what, Com
   X.translation() = read_numbers(map.need("position"), 3, map.name_of("position"), kCoordinate, complaints);
   if (map.has("quaternion") + map.has("rpy") + map.has("rpy_deg") > 1)
     map.complain(what + " gives its orientation twice, expected one of quaternion, rpy, rpy_deg");
-  if (const YamlValue* q = map.find("quaternion")) X.linear() = read_quaternion(*q, map.name_of("quaternion"), complaints);
+  if (const YamlValue* q = map.find("quaternion"))
+    X.linear() = read_quaternion(*q, map.name_of("quaternion"), complaints);
   if (const YamlValue* rpy = map.find("rpy"))
     X.linear() = rotation_of_rpy(read_numbers(*rpy, 3, map.name_of("rpy"), kAnyNumber, complaints));
   if (const YamlValue* rpy = map.find("rpy_deg"))
@@ -116,8 +124,9 @@ StrictMap::StrictMap(const YamlValue& value, std::string what, std::vector<std::
   }
   for (const YamlMember& member : value.members)
     if (std::find(known.begin(), known.end(), member.key) == known.end())
-      complaints.add(member.line, member.column, "unknown key " + in_quotes(member.key) + " of " + what_ +
-                                                     ", the nearest known key is " + in_quotes(nearest_name(member.key, known)));
+      complaints.add(member.line, member.column,
+                     "unknown key " + in_quotes(member.key) + " of " + what_ + ", the nearest known key is " +
+                         in_quotes(nearest_name(member.key, known)));
 }
 
 const YamlValue& StrictMap::need(std::string_view key) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <limits>
 #include <optional>
 #include <string>

@@ -1,6 +1,7 @@
 #include "io/task_reader.hpp"
 
 #include "io/text.hpp"
+
 #include "mamo/io/nearest_name.hpp"
 
 namespace mamo::io {
@@ -69,7 +70,8 @@ Task read_retrieve(StrictMap& map, const Problem& problem, Complaints& complaint
   const YamlValue& object = map.need("object");
   retrieve.object = read_object_name(object, "object of task", problem.scene, complaints);
   if (retrieve.object.valid() && problem.scene[retrieve.object].fixture())
-    complaints.add(object, "object of task is the fixture " + in_quotes(object.scalar) + ", only an object can be retrieved");
+    complaints.add(object,
+                   "object of task is the fixture " + in_quotes(object.scalar) + ", only an object can be retrieved");
   retrieve.X_WT_pregrasp = read_pose(map.need("pregrasp"), "pregrasp of task", complaints);
   retrieve.home = problem.q_start;
   if (const YamlValue* home = map.find("home"); home && !(home->is_scalar() && home->scalar == "start"))

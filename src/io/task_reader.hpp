@@ -2,6 +2,7 @@
 #pragma once
 
 #include "io/strict_reader.hpp"
+
 #include "mamo/model/problem.hpp"
 
 namespace mamo::io {

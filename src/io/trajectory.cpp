@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/text.hpp"
+
 #include "mamo/io/result_json.hpp"
 
 namespace mamo::io {
@@ -42,7 +43,8 @@ Status append(const Segment& segment, std::size_t index, const std::vector<std::
     if (!first && time <= out.t.back()) {
       // The seam of two segments, or an instant said twice: one point is enough if it is the same.
       if ((next - full).cwiseAbs().maxCoeff() > kJump)
-        return bad_segment(index, "point " + std::to_string(k) + " is elsewhere than the point before it at no later time");
+        return bad_segment(index,
+                           "point " + std::to_string(k) + " is elsewhere than the point before it at no later time");
       continue;
     }
     full = next;
@@ -110,8 +112,8 @@ Result<std::string> joint_trajectory_yaml(const Plan& plan, const Problem& probl
   const std::string zero = "{" + sec + ": 0, " + nanosec + ": 0}";
   std::string text = "header:\n";
   if (ros1) text += "  seq: 0\n";
-  text += "  stamp: " + zero + "\n  frame_id: " + yaml_string(problem.robot.model->links.front().name) +
-          "\njoint_names: [";
+  text +=
+      "  stamp: " + zero + "\n  frame_id: " + yaml_string(problem.robot.model->links.front().name) + "\njoint_names: [";
   for (std::size_t i = 0; i < joined->joint_names.size(); ++i)
     text += (i ? ", " : "") + yaml_string(joined->joint_names[i]);
   text += "]\npoints:\n";
@@ -120,9 +122,9 @@ Result<std::string> joint_trajectory_yaml(const Plan& plan, const Problem& probl
     std::int64_t ns = std::llround(joined->motion.t[i] * 1e9);
     ns = std::max(ns, before + 1);  // strictly increasing also after rounding
     before = ns;
-    text += "  - positions: " + yaml_list(joined->motion.q[i]) + "\n    velocities: []\n    accelerations: []\n    effort: []\n" +
-            "    time_from_start: {" + sec + ": " + std::to_string(ns / 1000000000) + ", " + nanosec + ": " +
-            std::to_string(ns % 1000000000) + "}\n";
+    text += "  - positions: " + yaml_list(joined->motion.q[i]) +
+            "\n    velocities: []\n    accelerations: []\n    effort: []\n" + "    time_from_start: {" + sec + ": " +
+            std::to_string(ns / 1000000000) + ", " + nanosec + ": " + std::to_string(ns % 1000000000) + "}\n";
   }
   return text + object_comments(plan, problem.scene);
 }

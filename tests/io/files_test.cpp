@@ -8,8 +8,9 @@
 
 #include "io/sha256.hpp"
 #include "io/text.hpp"
-#include "mamo/io/load.hpp"
 #include "support/scratch_folder.hpp"
+
+#include "mamo/io/load.hpp"
 
 namespace mamo {
 namespace {
@@ -42,7 +43,8 @@ TEST(Files, CheckWritableLeavesNothingBehindAndTouchesNothing) {
 
 TEST(Files, AnUnwritableOutputIsAnErrorOfKindOutput) {
   const test::ScratchFolder folder;
-  for (const std::string& path : {folder.path() + "/no/such/folder/out", folder.path(), std::string("/proc/mamo.json"), std::string()}) {
+  for (const std::string& path :
+       {folder.path() + "/no/such/folder/out", folder.path(), std::string("/proc/mamo.json"), std::string()}) {
     const Status checked = io::check_writable(path), written = io::write_file(path, "x");
     ASSERT_FALSE(checked) << path;
     ASSERT_FALSE(written) << path;
@@ -53,9 +55,7 @@ TEST(Files, AnUnwritableOutputIsAnErrorOfKindOutput) {
   EXPECT_EQ(files_in(folder.path()), 0u);
 }
 
-TEST(Files, AFullDiskLeavesNoPartialFile) {
-  EXPECT_FALSE(io::write_file("/dev/full", "x"));
-}
+TEST(Files, AFullDiskLeavesNoPartialFile) { EXPECT_FALSE(io::write_file("/dev/full", "x")); }
 
 TEST(Files, DevicesAreWrittenInPlaceAndLinksKept) {
   EXPECT_TRUE(io::write_file("/dev/null", "x"));

@@ -1,19 +1,19 @@
 // What the native problem file means, value by value, and what the file options do to it.
-#include "mamo/io/load.hpp"
-
 #include <gmock/gmock.h>
 
 #include <numbers>
 
-#include "mamo/io/profile.hpp"
 #include "support/bad_inputs.hpp"
 #include "support/scratch_folder.hpp"
+
+#include "mamo/io/load.hpp"
+#include "mamo/io/profile.hpp"
 
 namespace mamo {
 namespace {
 
-using ::testing::HasSubstr;
 using test::problem_with;
+using ::testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -72,21 +72,24 @@ TEST_F(LoadProblem, TheSha256IsThatOfTheFilesBytes) {
 TEST_F(LoadProblem, RpyIsRollPitchYawAboutFixedAxes) {
   const Problem p = load(problem_with("0.82], rpy: [0, 0, 0]", "0.8], rpy_deg: [90, 0, 90]"));
   // x: roll keeps it, yaw takes it to y. z: roll takes it to -y, yaw on to x.
-  EXPECT_TRUE((p.scene[ObjectId{1}].X_WO.linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
-  EXPECT_TRUE((p.scene[ObjectId{1}].X_WO.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+  EXPECT_TRUE(
+      (p.scene[ObjectId{1}].X_WO.linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+  EXPECT_TRUE(
+      (p.scene[ObjectId{1}].X_WO.linear() * Eigen::Vector3d::UnitZ()).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
 }
 
 TEST_F(LoadProblem, QuaternionsAreXyzwAndAreNormalisedWithAWarning) {
   const double s = std::sqrt(0.5);
   const Problem p = load(problem_with("quaternion: [0, 0, 0, 1]", "quaternion: [0, 0, 2, 2]"));
-  EXPECT_TRUE(std::get<ReachPose>(p.task).X_WT.linear().isApprox(
-      Eigen::Quaterniond(s, 0, 0, s).toRotationMatrix(), 1e-12));
+  EXPECT_TRUE(
+      std::get<ReachPose>(p.task).X_WT.linear().isApprox(Eigen::Quaterniond(s, 0, 0, s).toRotationMatrix(), 1e-12));
   ASSERT_EQ(p.warnings.size(), 1u);
   EXPECT_THAT(p.warnings[0], HasSubstr("was normalised"));
 }
 
 TEST_F(LoadProblem, NumbersOverrideTheProfileAndAnObjectsOwnOverrideBoth) {
-  std::string text = problem_with("{profile: full}", "{profile: full, max_speed: 0.5, max_tilt_deg: 10, max_displacement: .inf}");
+  std::string text =
+      problem_with("{profile: full}", "{profile: full, max_speed: 0.5, max_tilt_deg: 10, max_displacement: .inf}");
   text.replace(text.find("movable: true}"), 14, "movable: true, constraints: {max_tilt: 0.2, touch: robot}}");
   const InteractionConstraints& c = load(text).scene[ObjectId{1}].constraints;
   EXPECT_EQ(c.max_speed, 0.5);
@@ -106,17 +109,19 @@ TEST_F(LoadProblem, CommonNumbersAreForMovablesOnly) {
 }
 
 TEST_F(LoadProblem, ContactOnlyHasNoLimitsAndLegacyThePublishedOnes) {
-  const InteractionConstraints none = load(problem_with("profile: full", "profile: contact-only")).scene[ObjectId{1}].constraints;
+  const InteractionConstraints none =
+      load(problem_with("profile: full", "profile: contact-only")).scene[ObjectId{1}].constraints;
   EXPECT_TRUE(std::isinf(none.max_tilt) && std::isinf(none.max_speed) && none.may_leave_support);
-  const InteractionConstraints legacy = load(problem_with("profile: full", "profile: legacy")).scene[ObjectId{1}].constraints;
+  const InteractionConstraints legacy =
+      load(problem_with("profile: full", "profile: legacy")).scene[ObjectId{1}].constraints;
   EXPECT_NEAR(legacy.max_tilt, 38.8 * kPi / 180, 1e-15);
   EXPECT_EQ(legacy.max_speed, 0.95);
 }
 
 TEST_F(LoadProblem, ShapesOfOneBodyKeepTheirPoses) {
-  const Problem p = load(problem_with(
-      "shape: {sphere: {radius: 0.04}}",
-      "shapes: [{shape: {sphere: {radius: 0.04}}}, {shape: {box: {size: [0.1, 0.1, 0.1]}}, pose: {position: [0, 0, 0.1]}}]"));
+  const Problem p = load(problem_with("shape: {sphere: {radius: 0.04}}",
+                                      "shapes: [{shape: {sphere: {radius: 0.04}}}, {shape: {box: {size: [0.1, 0.1, "
+                                      "0.1]}}, pose: {position: [0, 0, 0.1]}}]"));
   ASSERT_EQ(p.scene[ObjectId{2}].shapes.size(), 2u);
   EXPECT_EQ(p.scene[ObjectId{2}].shapes[1].X_BS.translation(), Eigen::Vector3d(0, 0, 0.1));
 }
@@ -135,7 +140,8 @@ TEST_F(LoadProblem, TheTargetOfAReachMustNotBeTouchedEvenIfMovable) {
 }
 
 TEST_F(LoadProblem, AGroupOfAnSrdfPlansAndItsStatesAreStarts) {
-  std::string text = problem_with("  base: base_footprint\n", "  group: right_arm\n  srdf: robots/pr2_right_arm.srdf\n");
+  std::string text =
+      problem_with("  base: base_footprint\n", "  group: right_arm\n  srdf: robots/pr2_right_arm.srdf\n");
   const std::size_t start = text.find("  start:"), fixed = text.find("  fixed:");
   text.replace(start, fixed - start, "  start: home\n");
   const Problem p = load(text);
@@ -200,7 +206,8 @@ TEST_F(LoadProblem, TheConstraintsOptionReplacesTheProfile) {
 }
 
 TEST_F(LoadProblem, AReplacingRobotKeepsWhatFitsAndWarnsAboutTheRest) {
-  const std::string robot = folder.write("two.urdf", R"(<robot name="two"><link name="a"/><link name="b"/><link name="c"/>
+  const std::string robot =
+      folder.write("two.urdf", R"(<robot name="two"><link name="a"/><link name="b"/><link name="c"/>
     <joint name="r_elbow_flex_joint" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
       <limit lower="-1" upper="1" velocity="1" effort="1"/></joint>
     <joint name="other" type="prismatic"><parent link="b"/><child link="c"/><axis xyz="1 0 0"/>

@@ -1,10 +1,11 @@
 // Plans written by mamo read back as they were.
 #include <gmock/gmock.h>
 
-#include "mamo/io/load.hpp"
-#include "mamo/io/result_json.hpp"
 #include "support/sample_problem.hpp"
 #include "support/scratch_folder.hpp"
+
+#include "mamo/io/load.hpp"
+#include "mamo/io/result_json.hpp"
 
 namespace mamo {
 namespace {

@@ -1,9 +1,9 @@
 #include "mamo/io/result_json.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "support/sample_problem.hpp"
 
@@ -32,17 +32,17 @@ TEST_F(ResultJson, HasEveryKeyOfTheInterfaceInItsOrder) {
   const auto json = nlohmann::ordered_json::parse(io::result_json(result, problem));
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
-  EXPECT_THAT(keys, ::testing::ElementsAre("schema", "status", "exit_code", "reason", "planner", "problem",
-                                           "problem_sha256", "version", "seed", "threads", "signature", "cost",
-                                           "suboptimality_bound", "found", "verified", "rejected_by_verification",
-                                           "second_order_contacts", "stats", "plan"));
+  EXPECT_THAT(keys,
+              ::testing::ElementsAre("schema", "status", "exit_code", "reason", "planner", "problem", "problem_sha256",
+                                     "version", "seed", "threads", "signature", "cost", "suboptimality_bound", "found",
+                                     "verified", "rejected_by_verification", "second_order_contacts", "stats", "plan"));
   keys.clear();
   for (const auto& item : json["stats"].items()) keys.push_back(item.key());
-  EXPECT_THAT(keys, ::testing::ElementsAre(
-                        "wall_s", "found_s", "load_s", "search_s", "tracking_s", "verification_s", "simulations",
-                        "simulations_used", "tracking_simulations", "simulation_s", "collision_checks", "expansions",
-                        "planning_iterations", "relevant_objects", "mapf_calls", "mapf_s", "push_attempts",
-                        "push_planning_s", "cache_hits", "peak_memory_mb", "failures"));
+  EXPECT_THAT(keys, ::testing::ElementsAre("wall_s", "found_s", "load_s", "search_s", "tracking_s", "verification_s",
+                                           "simulations", "simulations_used", "tracking_simulations", "simulation_s",
+                                           "collision_checks", "expansions", "planning_iterations", "relevant_objects",
+                                           "mapf_calls", "mapf_s", "push_attempts", "push_planning_s", "cache_hits",
+                                           "peak_memory_mb", "failures"));
 }
 
 TEST_F(ResultJson, ValuesReadBackExactly) {

@@ -1,11 +1,12 @@
 // load(to_native_yaml(p)) == p.
 #include <gmock/gmock.h>
 
-#include "mamo/io/load.hpp"
-#include "mamo/io/profile.hpp"
 #include "support/bad_inputs.hpp"
 #include "support/sample_problem.hpp"
 #include "support/scratch_folder.hpp"
+
+#include "mamo/io/load.hpp"
+#include "mamo/io/profile.hpp"
 
 namespace mamo {
 namespace {
@@ -124,7 +125,8 @@ TEST_F(RoundTrip, OfClutterWithEveryKindOfTask) {
     p.scene.objects[7].constraints.touch = Touch::robot;
     p.scene.physics.step = random.uniform(0.001, 0.01);
     p.robot.X_WB = fixtures::at(random.uniform(-1, 1), random.uniform(-1, 1), 0.5, random.uniform(-3, 3));
-    const Eigen::Isometry3d goal = fixtures::at(random.uniform(), random.uniform(), random.uniform(), random.uniform(-3, 3));
+    const Eigen::Isometry3d goal =
+        fixtures::at(random.uniform(), random.uniform(), random.uniform(), random.uniform(-3, 3));
     if (seed % 3 == 0) p.task = ReachPose{goal, 0.02, 0.1, ObjectId{11}};
     if (seed % 3 == 1) p.task = ReachJoints{p.q_start, 0.03};
     if (seed % 3 == 2) p.task = Retrieve{ObjectId{10}, goal, p.q_start, 0.02};
@@ -143,12 +145,14 @@ TEST_F(RoundTrip, OfAShelfScene) {
 
 TEST_F(RoundTrip, OfAMeshFromAnywhere) {
   folder.write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-  expect_round_trip(load(test::problem_with("{sphere: {radius: 0.04}}, pose: {position: [0.8, -0.4, 0.81]}",
-                                            "{mesh: {file: tetra.obj, scale: 0.1}}, pose: {position: [0.8, -0.4, 0.77]}")));
+  expect_round_trip(
+      load(test::problem_with("{sphere: {radius: 0.04}}, pose: {position: [0.8, -0.4, 0.81]}",
+                              "{mesh: {file: tetra.obj, scale: 0.1}}, pose: {position: [0.8, -0.4, 0.77]}")));
 }
 
 TEST_F(RoundTrip, AwkwardIdsSurvive) {
-  for (const char* id : {"true", "007", "1e5", "null", "~", "a b", "it's", "x:y", "-", "[", "# no comment", "\xc3\xa9"}) {
+  for (const char* id :
+       {"true", "007", "1e5", "null", "~", "a b", "it's", "x:y", "-", "[", "# no comment", "\xc3\xa9"}) {
     Problem p = load(test::good_problem());
     p.scene.objects[1].id = id;
     expect_round_trip(p);

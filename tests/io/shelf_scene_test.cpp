@@ -6,10 +6,11 @@
 #include <numbers>
 #include <sstream>
 
-#include "mamo/io/load.hpp"
 #include "support/bad_inputs.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/shared_data.hpp"
+
+#include "mamo/io/load.hpp"
 
 namespace mamo {
 namespace {

@@ -3,9 +3,10 @@
 
 #include <numbers>
 
+#include "support/fixtures.hpp"
+
 #include "mamo/model/plan.hpp"
 #include "mamo/model/problem.hpp"
-#include "support/fixtures.hpp"
 
 namespace mamo::fixtures {
 
