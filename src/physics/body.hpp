@@ -37,10 +37,13 @@ class Body {
   void place(const Eigen::Isometry3d& X_WB);
   /// From now on moves with the link, at X_LB.
   void attach_to(LinkId link, const Eigen::Isometry3d& X_LB);
-  /// A driven body follows its link, at the velocity that takes it there in 1 / rate seconds.
+  /// A driven body sets off for its link's next pose at the velocity that takes it there in 1 / rate seconds, and
+  /// arrives once the step's velocities are solved: contacts are found where it starts, as for every other body, so
+  /// that what it reaches at the end of the step is pushed in that step, and what it does not reach is not.
   void drive(const Eigen::Isometry3d& X_WL, double rate);
+  void arrive(const Eigen::Isometry3d& X_WL);
   void apply_gravity();
-  /// Moves a free body by its velocity, widens nothing but its own bounds, counts its steps of rest.
+  /// Moves a free body by its velocity, counts its steps of rest.
   void integrate(double step_s);
   void wake();
   void put_to_sleep();
@@ -55,7 +58,10 @@ class Body {
   ObjectId name() const { return role_ == Role::driven ? kRobot : id_; }
   ObjectId id() const { return id_; }
   LinkId link() const { return link_; }
+  /// Of the shape, widened by how far contact points reach and, if that is much, by travel().
   const Bounds& bounds() const { return bounds_; }
+  /// How far any of its points can get in this step at its present velocity (m). Set by drive() and integrate().
+  double travel() const { return travel_; }
   bool awake() const { return awake_; }                // free bodies only
   bool moving() const { return moving_; }              // driven bodies: in this step
   bool active() const { return awake_ || moving_; }
@@ -68,6 +74,8 @@ class Body {
 
  private:
   void update_bounds();
+  void update_travel(double step_s);
+  void resist_rolling();
   void become(Role role);
 
   std::unique_ptr<BodyShape> shape_;     // none: the floor
@@ -78,7 +86,10 @@ class Body {
   double mass_ = 0;                      // kg, while free
   LinkId link_;                          // while driven
   Eigen::Isometry3d X_LC_ = Eigen::Isometry3d::Identity();
-  double margin_ = 0;                    // m, by which bounds are wider than the shape
+  double margin_ = 0;                    // m, how far contact points reach
+  double radius_ = 0;                    // m, about the centre of mass
+  double travel_ = 0;
+  std::vector<Eigen::Vector3d> rolling_axes_;  // of cylinders, in C; zero for spheres
   Bounds bounds_{};
   bool awake_ = false, moving_ = false, stirred_ = false;
   int rest_steps_ = 0;

@@ -31,9 +31,9 @@ double floor_height(const Scene& scene) {
 
 }  // namespace
 
-// One step, in this order: the arm moves; gravity on what is awake; pairs near each other get contact points;
-// a contact with something that moves wakes a sleeper; velocities are solved; poses follow; what has rested
-// long enough goes to sleep. Invariants: `driven` and `free` hold indices of present bodies, ascending; a body
+// One step, in this order: the arm's velocities; gravity on what is awake; pairs near each other get contact
+// points; a contact with something that moves wakes a sleeper; velocities are solved; poses follow, the arm's too;
+// what has rested long enough goes to sleep. Invariants: `driven` and `free` hold indices of present bodies, ascending; a body
 // asleep has velocity zero and has not moved since it fell asleep or was placed.
 struct World::Impl {
   std::shared_ptr<const ForwardKinematics> kinematics;
@@ -52,6 +52,7 @@ struct World::Impl {
   // Scratch of one step.
   std::vector<Eigen::Isometry3d> X_WL;
   std::vector<std::uint32_t> near;
+  std::vector<double> travel;
   std::vector<btCollisionObject*> awake_bodies;
   std::vector<btPersistentManifold*> manifolds;
 
@@ -72,6 +73,7 @@ struct World::Impl {
       objects.push_back(b.bullet());
     }
     pairs = std::make_unique<ContactPairs>(objects);
+    travel.resize(bodies.size());
   }
 
   void add_links() {
@@ -139,6 +141,11 @@ struct World::Impl {
     std::sort(near.begin(), near.end());
   }
 
+  void collide() {
+    for (std::size_t i = 0; i < bodies.size(); ++i) travel[i] = bodies[i].travel();
+    pairs->collide(near, travel, physics.step);
+  }
+
   void wake_touched() {
     for (const ContactPairs::Pair* p : pairs->visited()) {
       if (p->points == 0) continue;
@@ -187,10 +194,11 @@ struct World::Impl {
     for (const int f : free)
       if (at(f).awake()) at(f).apply_gravity();
     find_near();
-    pairs->collide(near);
+    collide();
     pairs->forget([this](int a, int b) { return at(a).active() || at(b).active(); });
     wake_touched();
     solve();
+    for (const int d : driven) at(d).arrive(X_WL[at(d).link().index()]);
     for (const int f : free)
       if (at(f).awake()) at(f).integrate(physics.step);
     let_sleep();
@@ -262,7 +270,7 @@ void World::attach(ObjectId id, LinkId link) {
   w.driven.insert(std::lower_bound(w.driven.begin(), w.driven.end(), index), index);
   // Its contacts end here: with what is static for good, with free bodies until they are found anew.
   w.near.clear();
-  w.pairs->collide(w.near);
+  w.collide();
   w.pairs->forget([index](int a, int b) { return a == index || b == index; });
 }
 
@@ -271,7 +279,7 @@ void World::ignore_robot(ObjectId id) {
   const int index = static_cast<int>(impl_->first_object + id.index());
   Impl& w = *impl_;
   w.near.clear();
-  w.pairs->collide(w.near);
+  w.collide();
   w.pairs->forget([&w, index](int a, int b) { return b == index && w.at(a).name() == kRobot; });
 }
 
