@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "mamo/common/hash.hpp"
 #include "naive_bullet.hpp"
 #include "support/arm_pushes.hpp"
+
+#include "mamo/common/hash.hpp"
 
 namespace {
 
@@ -22,8 +23,7 @@ double cpu_s() {
 }
 
 struct Data {
-  std::shared_ptr<const ForwardKinematics> kinematics =
-      std::make_shared<ForwardKinematics>(fixtures::pr2_like_arm());
+  std::shared_ptr<const ForwardKinematics> kinematics = std::make_shared<ForwardKinematics>(fixtures::pr2_like_arm());
   struct Case {
     Scene scene;
     WorldState start;

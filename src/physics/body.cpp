@@ -6,8 +6,9 @@
 
 #include <mutex>
 
-#include "mamo/physics/world.hpp"
 #include "physics/contact_pairs.hpp"
+
+#include "mamo/physics/world.hpp"
 
 namespace mamo {
 
@@ -59,12 +60,16 @@ btVector3 rotation_vector(const btMatrix3x3& R) {
 
 Body::Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass,
            double friction)
-    : shape_(std::make_unique<BodyShape>(shapes)), rigid_(make_rigid(shape_->bullet(), friction)), id_(id), mass_(mass) {
+    : shape_(std::make_unique<BodyShape>(shapes)),
+      rigid_(make_rigid(shape_->bullet(), friction)),
+      id_(id),
+      mass_(mass) {
   // Contact points of a pair reach as far as the smaller threshold of the two, so half of each is enough.
   margin_ = 0.5 * shape_->bullet()->getContactBreakingThreshold(gContactBreakingThreshold);
   radius_ = shape_->bullet()->getAngularMotionDisc();
   for (const PlacedShape& s : shapes) {
     const Eigen::Matrix3d R_CS = shape_->X_BC().linear().transpose() * s.X_BS.linear();
+    has_box_ = has_box_ || std::holds_alternative<Box>(s.shape);
     if (std::holds_alternative<Cylinder>(s.shape)) rolling_axes_.push_back(R_CS.col(2));
     if (std::holds_alternative<Sphere>(s.shape)) rolling_axes_.push_back(Eigen::Vector3d::Zero());
   }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <array>
 #include <memory>
 
-#include "mamo/common/ids.hpp"
 #include "physics/body_shape.hpp"
+
+#include "mamo/common/ids.hpp"
 
 class btRigidBody;
 
@@ -16,8 +18,8 @@ namespace mamo {
 struct Bounds {
   std::array<double, 3> min, max;
   bool overlaps(const Bounds& o) const {
-    return min[0] <= o.max[0] && o.min[0] <= max[0] && min[1] <= o.max[1] && o.min[1] <= max[1] &&
-           min[2] <= o.max[2] && o.min[2] <= max[2];
+    return min[0] <= o.max[0] && o.min[0] <= max[0] && min[1] <= o.max[1] && o.min[1] <= max[1] && min[2] <= o.max[2] &&
+           o.min[2] <= max[2];
   }
 };
 
@@ -27,7 +29,8 @@ enum class Role { still, driven, free };
 class Body {
  public:
   /// A body of these shapes at X_WB. mass (kg) > 0 makes it free.
-  Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass, double friction);
+  Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass,
+       double friction);
   /// The floor: everything below z (m).
   Body(double floor_z, double friction);
   ~Body();
@@ -62,10 +65,11 @@ class Body {
   const Bounds& bounds() const { return bounds_; }
   /// How far any of its points can get in this step at its present velocity (m). Set by drive() and integrate().
   double travel() const { return travel_; }
-  bool awake() const { return awake_; }                // free bodies only
-  bool moving() const { return moving_; }              // driven bodies: in this step
+  bool awake() const { return awake_; }    // free bodies only
+  bool moving() const { return moving_; }  // driven bodies: in this step
   bool active() const { return awake_ || moving_; }
-  bool stirred() const { return stirred_; }            // active at any time since place()
+  bool stirred() const { return stirred_; }  // active at any time since place()
+  bool has_box() const { return has_box_; }
   int rest_steps() const { return rest_steps_; }
   void limit_rest(int steps) { rest_steps_ = std::min(rest_steps_, steps); }
 
@@ -78,19 +82,20 @@ class Body {
   void resist_rolling();
   void become(Role role);
 
-  std::unique_ptr<BodyShape> shape_;     // none: the floor
+  std::unique_ptr<BodyShape> shape_;  // none: the floor
   std::unique_ptr<struct FloorShape> floor_;
   std::unique_ptr<btRigidBody> rigid_;
   Role role_ = Role::still;
   ObjectId id_;
-  double mass_ = 0;                      // kg, while free
-  LinkId link_;                          // while driven
+  double mass_ = 0;  // kg, while free
+  LinkId link_;      // while driven
   Eigen::Isometry3d X_LC_ = Eigen::Isometry3d::Identity();
-  double margin_ = 0;                    // m, how far contact points reach
-  double radius_ = 0;                    // m, about the centre of mass
+  double margin_ = 0;  // m, how far contact points reach
+  double radius_ = 0;  // m, about the centre of mass
   double travel_ = 0;
   std::vector<Eigen::Vector3d> rolling_axes_;  // of cylinders, in C; zero for spheres
   Bounds bounds_{};
+  bool has_box_ = false;
   bool awake_ = false, moving_ = false, stirred_ = false;
   int rest_steps_ = 0;
 };

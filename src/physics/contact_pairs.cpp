@@ -68,8 +68,7 @@ void ContactPairs::clear() {
   visited_.clear();
 }
 
-void ContactPairs::collide(const std::vector<std::uint32_t>& keys, const std::vector<double>& travel,
-                           double step_s) {
+void ContactPairs::collide(const std::vector<std::uint32_t>& keys, const std::vector<double>& travel, double step_s) {
   ++stamp_;
   visited_.clear();
   for (const std::uint32_t key : keys) {
@@ -133,6 +132,18 @@ void ContactPairs::gather(Pair& pair) {
     pair.manifolds.push_back(bullet_->scratch[i]);
     pair.points += bullet_->scratch[i]->getNumContacts();
   }
+}
+
+std::optional<double> ContactPairs::touch_depth(const Pair& pair) {
+  std::optional<double> depth;
+  if (pair.points == 0) return depth;
+  for (const btPersistentManifold* m : pair.manifolds)
+    for (int i = 0; i < m->getNumContacts(); ++i) {
+      const btManifoldPoint& p = m->getContactPoint(i);
+      if (p.getDistance() > 0 && p.getAppliedImpulse() <= 0) continue;
+      depth = std::max({depth.value_or(0.0), -p.getDistance(), 0.0});
+    }
+  return depth;
 }
 
 btDispatcher* ContactPairs::dispatcher() { return &bullet_->dispatcher; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class btCollisionObject;
@@ -38,7 +39,9 @@ class ContactPairs {
 
   int first(const Pair& p) const { return static_cast<int>(p.key / count_); }
   int second(const Pair& p) const { return static_cast<int>(p.key % count_); }
-  std::uint32_t key(int a, int b) const { return static_cast<std::uint32_t>(a) * count_ + static_cast<std::uint32_t>(b); }
+  std::uint32_t key(int a, int b) const {
+    return static_cast<std::uint32_t>(a) * count_ + static_cast<std::uint32_t>(b);
+  }
 
   /// Starts a step of step_s seconds in which `keys` (sorted, unique) are near each other: finds their contact
   /// points. travel: how far any point of each body can get in this step at its present velocity (m).
@@ -47,6 +50,8 @@ class ContactPairs {
   const std::vector<Pair*>& visited() const { return visited_; }
   /// Pairs that hold contact points, visited or not, in no particular order.
   const std::vector<Pair*>& live() const { return live_; }
+  /// Depth (m) of the deepest point that touches (distance <= 0, or it carries a force), if any.
+  static std::optional<double> touch_depth(const Pair& pair);
   /// Forgets pairs that the last collide() did not visit and for which `stale` says so.
   template <class Predicate>
   void forget(Predicate stale) {

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "support/fixtures.hpp"
+
 #include "mamo/kinematics/inverse_kinematics.hpp"
 #include "mamo/physics/world.hpp"
-#include "support/fixtures.hpp"
 
 namespace mamo::pushing {
 
@@ -38,8 +39,8 @@ inline std::vector<Eigen::VectorXd> straight_line(const InverseKinematics& ik, c
 }
 
 /// Pushes that start clear of everything and move the object in front by more than 2 cm.
-inline std::vector<ArmPush> arm_pushes(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene, int count,
-                                       std::uint64_t seed) {
+inline std::vector<ArmPush> arm_pushes(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene,
+                                       int count, std::uint64_t seed) {
   const InverseKinematics ik(*kinematics);
   const Robot& robot = kinematics->robot();
   RandomStream random(seed, {0x61726d});
