@@ -6,6 +6,8 @@
 
 #include <mutex>
 
+#include "physics/contact_pairs.hpp"
+
 #include "mamo/physics/world.hpp"
 
 namespace mamo {
@@ -17,6 +19,9 @@ struct FloorShape {
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s^2
+/// Rolling resistance: how far ahead of the contact point a rolling body is carried (m). Without it a can that
+/// has toppled rolls for ten seconds.
+constexpr double kRollingArm = 0.002;
 
 btVector3 to_bullet(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d to_eigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -55,9 +60,19 @@ btVector3 rotation_vector(const btMatrix3x3& R) {
 
 Body::Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass,
            double friction)
-    : shape_(std::make_unique<BodyShape>(shapes)), rigid_(make_rigid(shape_->bullet(), friction)), id_(id), mass_(mass) {
+    : shape_(std::make_unique<BodyShape>(shapes)),
+      rigid_(make_rigid(shape_->bullet(), friction)),
+      id_(id),
+      mass_(mass) {
   // Contact points of a pair reach as far as the smaller threshold of the two, so half of each is enough.
   margin_ = 0.5 * shape_->bullet()->getContactBreakingThreshold(gContactBreakingThreshold);
+  radius_ = shape_->bullet()->getAngularMotionDisc();
+  for (const PlacedShape& s : shapes) {
+    const Eigen::Matrix3d R_CS = shape_->X_BC().linear().transpose() * s.X_BS.linear();
+    has_box_ = has_box_ || std::holds_alternative<Box>(s.shape);
+    if (std::holds_alternative<Cylinder>(s.shape)) rolling_axes_.push_back(R_CS.col(2));
+    if (std::holds_alternative<Sphere>(s.shape)) rolling_axes_.push_back(Eigen::Vector3d::Zero());
+  }
   place(X_WB);
 }
 
@@ -96,8 +111,10 @@ void Body::place(const Eigen::Isometry3d& X_WB) {
   rigid_->updateInertiaTensor();
   rigid_->setCompanionId(-1);
   rigid_->setHitFraction(1);
+  resist_rolling();
   awake_ = moving_ = stirred_ = ignores_robot = false;
   rest_steps_ = 0;
+  travel_ = 0;
   update_bounds();
 }
 
@@ -117,16 +134,16 @@ void Body::drive(const Eigen::Isometry3d& X_WL, double rate) {
   const btTransform from = rigid_->getWorldTransform();
   const btTransform to = to_bullet(Eigen::Isometry3d(X_WL * X_LC_));
   moving_ = !(from == to);
-  if (!moving_) {
-    rigid_->setLinearVelocity({0, 0, 0});
-    rigid_->setAngularVelocity({0, 0, 0});
-    return;
-  }
-  rigid_->setWorldTransform(to);
-  rigid_->setLinearVelocity((to.getOrigin() - from.getOrigin()) * rate);
-  rigid_->setAngularVelocity(rotation_vector(to.getBasis() * from.getBasis().transpose()) * rate);
+  const btVector3 zero(0, 0, 0);
+  rigid_->setLinearVelocity(moving_ ? (to.getOrigin() - from.getOrigin()) * rate : zero);
+  rigid_->setAngularVelocity(moving_ ? rotation_vector(to.getBasis() * from.getBasis().transpose()) * rate : zero);
+  update_travel(1.0 / rate);
+}
+
+void Body::arrive(const Eigen::Isometry3d& X_WL) {
+  if (!moving_) return;
+  rigid_->setWorldTransform(to_bullet(Eigen::Isometry3d(X_WL * X_LC_)));
   stirred_ = true;
-  update_bounds();
 }
 
 void Body::apply_gravity() { rigid_->applyGravity(); }
@@ -136,14 +153,24 @@ void Body::integrate(double step_s) {
   rigid_->predictIntegratedTransform(step_s, next);
   rigid_->proceedToTransform(next);
   rigid_->clearForces();
-  update_bounds();
+  update_travel(step_s);
+  resist_rolling();
   const bool slow = rigid_->getLinearVelocity().length2() < kRestSpeed * kRestSpeed &&
                     rigid_->getAngularVelocity().length2() < kRestAngularSpeed * kRestAngularSpeed;
   rest_steps_ = slow ? rest_steps_ + 1 : 0;
 }
 
+/// Bullet's rolling friction costs three rows per contact point, so what stands goes without.
+void Body::resist_rolling() {
+  const btVector3& up_in_C = rigid_->getWorldTransform().getBasis()[2];
+  const auto rolls = [&](const Eigen::Vector3d& axis) { return std::abs(up_in_C.dot(to_bullet(axis))) < 0.9; };
+  const bool any = std::any_of(rolling_axes_.begin(), rolling_axes_.end(), rolls);
+  rigid_->setRollingFriction(any ? kRollingArm : 0.0);
+}
+
 void Body::wake() {
   awake_ = stirred_ = true;
+  resist_rolling();
   rest_steps_ = 0;
 }
 
@@ -151,14 +178,23 @@ void Body::put_to_sleep() {
   awake_ = false;
   rigid_->setLinearVelocity({0, 0, 0});
   rigid_->setAngularVelocity({0, 0, 0});
+  travel_ = 0;
+  update_bounds();
+}
+
+void Body::update_travel(double step_s) {
+  travel_ = (rigid_->getLinearVelocity().length() + rigid_->getAngularVelocity().length() * radius_) * step_s;
+  update_bounds();
 }
 
 void Body::update_bounds() {
   btVector3 lo, hi;
   rigid_->getAabb(lo, hi);
+  // If a pair closes in fast, one of the two covers at least half of that.
+  const double wide = margin_ + (travel_ > ContactPairs::kFastTravel / 2 ? travel_ : 0);
   for (int k = 0; k < 3; ++k) {
-    bounds_.min[static_cast<std::size_t>(k)] = lo[k] - margin_;
-    bounds_.max[static_cast<std::size_t>(k)] = hi[k] + margin_;
+    bounds_.min[static_cast<std::size_t>(k)] = lo[k] - wide;
+    bounds_.max[static_cast<std::size_t>(k)] = hi[k] + wide;
   }
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <array>
 #include <memory>
 
-#include "mamo/common/ids.hpp"
 #include "physics/body_shape.hpp"
+
+#include "mamo/common/ids.hpp"
 
 class btRigidBody;
 
@@ -16,8 +18,8 @@ namespace mamo {
 struct Bounds {
   std::array<double, 3> min, max;
   bool overlaps(const Bounds& o) const {
-    return min[0] <= o.max[0] && o.min[0] <= max[0] && min[1] <= o.max[1] && o.min[1] <= max[1] &&
-           min[2] <= o.max[2] && o.min[2] <= max[2];
+    return min[0] <= o.max[0] && o.min[0] <= max[0] && min[1] <= o.max[1] && o.min[1] <= max[1] && min[2] <= o.max[2] &&
+           o.min[2] <= max[2];
   }
 };
 
@@ -27,7 +29,8 @@ enum class Role { still, driven, free };
 class Body {
  public:
   /// A body of these shapes at X_WB. mass (kg) > 0 makes it free.
-  Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass, double friction);
+  Body(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& X_WB, ObjectId id, double mass,
+       double friction);
   /// The floor: everything below z (m).
   Body(double floor_z, double friction);
   ~Body();
@@ -37,10 +40,13 @@ class Body {
   void place(const Eigen::Isometry3d& X_WB);
   /// From now on moves with the link, at X_LB.
   void attach_to(LinkId link, const Eigen::Isometry3d& X_LB);
-  /// A driven body follows its link, at the velocity that takes it there in 1 / rate seconds.
+  /// A driven body sets off for its link's next pose at the velocity that takes it there in 1 / rate seconds, and
+  /// arrives once the step's velocities are solved: contacts are found where it starts, as for every other body, so
+  /// that what it reaches at the end of the step is pushed in that step, and what it does not reach is not.
   void drive(const Eigen::Isometry3d& X_WL, double rate);
+  void arrive(const Eigen::Isometry3d& X_WL);
   void apply_gravity();
-  /// Moves a free body by its velocity, widens nothing but its own bounds, counts its steps of rest.
+  /// Moves a free body by its velocity, counts its steps of rest.
   void integrate(double step_s);
   void wake();
   void put_to_sleep();
@@ -55,11 +61,15 @@ class Body {
   ObjectId name() const { return role_ == Role::driven ? kRobot : id_; }
   ObjectId id() const { return id_; }
   LinkId link() const { return link_; }
+  /// Of the shape, widened by how far contact points reach and, if that is much, by travel().
   const Bounds& bounds() const { return bounds_; }
-  bool awake() const { return awake_; }                // free bodies only
-  bool moving() const { return moving_; }              // driven bodies: in this step
+  /// How far any of its points can get in this step at its present velocity (m). Set by drive() and integrate().
+  double travel() const { return travel_; }
+  bool awake() const { return awake_; }    // free bodies only
+  bool moving() const { return moving_; }  // driven bodies: in this step
   bool active() const { return awake_ || moving_; }
-  bool stirred() const { return stirred_; }            // active at any time since place()
+  bool stirred() const { return stirred_; }  // active at any time since place()
+  bool has_box() const { return has_box_; }
   int rest_steps() const { return rest_steps_; }
   void limit_rest(int steps) { rest_steps_ = std::min(rest_steps_, steps); }
 
@@ -68,18 +78,24 @@ class Body {
 
  private:
   void update_bounds();
+  void update_travel(double step_s);
+  void resist_rolling();
   void become(Role role);
 
-  std::unique_ptr<BodyShape> shape_;     // none: the floor
+  std::unique_ptr<BodyShape> shape_;  // none: the floor
   std::unique_ptr<struct FloorShape> floor_;
   std::unique_ptr<btRigidBody> rigid_;
   Role role_ = Role::still;
   ObjectId id_;
-  double mass_ = 0;                      // kg, while free
-  LinkId link_;                          // while driven
+  double mass_ = 0;  // kg, while free
+  LinkId link_;      // while driven
   Eigen::Isometry3d X_LC_ = Eigen::Isometry3d::Identity();
-  double margin_ = 0;                    // m, by which bounds are wider than the shape
+  double margin_ = 0;  // m, how far contact points reach
+  double radius_ = 0;  // m, about the centre of mass
+  double travel_ = 0;
+  std::vector<Eigen::Vector3d> rolling_axes_;  // of cylinders, in C; zero for spheres
   Bounds bounds_{};
+  bool has_box_ = false;
   bool awake_ = false, moving_ = false, stirred_ = false;
   int rest_steps_ = 0;
 };

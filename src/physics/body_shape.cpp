@@ -5,7 +5,6 @@
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btCylinderShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
-
 #include <Eigen/Eigenvalues>
 
 #include "physics/mass_properties.hpp"

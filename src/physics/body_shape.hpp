@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <memory>
 #include <vector>
 
@@ -18,7 +19,7 @@ class BodyShape {
   explicit BodyShape(const std::vector<PlacedShape>& shapes);
   ~BodyShape();
 
-  btCollisionShape* bullet() const;                          // in frame C
+  btCollisionShape* bullet() const;  // in frame C
   const Eigen::Isometry3d& X_BC() const;
   /// Diagonal of the inertia in C (kg m^2).
   Eigen::Vector3d inertia(double mass) const;

@@ -93,7 +93,8 @@ void ConstraintWatch::check_contact(const Contact& c, std::vector<Violation>& fo
   }
   // Fixtures are no nodes of the interaction tree: then the object itself is what the constraint is about. Of two
   // objects it is the one that must not be touched; ids order the rest.
-  const bool swap = scene_[c.a].fixture() || (!scene_[c.b].fixture() && objects_may_touch(c.a) && !objects_may_touch(c.b));
+  const bool swap =
+      scene_[c.a].fixture() || (!scene_[c.b].fixture() && objects_may_touch(c.a) && !objects_may_touch(c.b));
   const ObjectId object = swap ? c.b : c.a, other = swap ? c.a : c.b;
   if (!(objects_may_touch(c.a) && objects_may_touch(c.b)) && !start_pairs_.contains({c.a, c.b}))
     found.push_back({ViolationKind::object_touch, object, other, c.depth, 0, 0});

@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "physics/support_rule.hpp"
+
 #include "mamo/model/interaction.hpp"
 #include "mamo/physics/evaluation.hpp"
-#include "physics/support_rule.hpp"
 
 namespace mamo {
 
@@ -28,9 +29,9 @@ class ConstraintWatch {
  private:
   struct ObjectRow;
   struct Facts {
-    Eigen::Vector3d up;      // the axis that is vertical at the start, in the object's frame
-    Eigen::Vector3d centre;  // of mass, in the object's frame (m)
-    Eigen::Vector3d p_start; // of mass, at the start, in world (m)
+    Eigen::Vector3d up;       // the axis that is vertical at the start, in the object's frame
+    Eigen::Vector3d centre;   // of mass, in the object's frame (m)
+    Eigen::Vector3d p_start;  // of mass, at the start, in world (m)
   };
   static const std::vector<ObjectRow>& object_rows();
 

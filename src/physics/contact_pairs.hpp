@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 class btCollisionObject;
@@ -20,9 +21,13 @@ class ContactPairs {
     std::uint32_t key = 0;  // a * bodies + b
     std::uint32_t stamp = 0;
     btCollisionAlgorithm* algorithm = nullptr;
+    btPersistentManifold* predicted = nullptr;     // of this step only
     std::vector<btPersistentManifold*> manifolds;  // compounds have several; possibly without points
     int points = 0;                                // contact points in all of them
   };
+
+  /// Pairs that can come closer by more than this in one step (m) get predicted contact points too.
+  static constexpr double kFastTravel = 0.002;
 
   /// For bodies 0 .. count-1; the pointers are kept.
   explicit ContactPairs(const std::vector<btCollisionObject*>& bodies);
@@ -34,14 +39,19 @@ class ContactPairs {
 
   int first(const Pair& p) const { return static_cast<int>(p.key / count_); }
   int second(const Pair& p) const { return static_cast<int>(p.key % count_); }
-  std::uint32_t key(int a, int b) const { return static_cast<std::uint32_t>(a) * count_ + static_cast<std::uint32_t>(b); }
+  std::uint32_t key(int a, int b) const {
+    return static_cast<std::uint32_t>(a) * count_ + static_cast<std::uint32_t>(b);
+  }
 
-  /// Starts a step in which `keys` (sorted, unique) are near each other: finds their contact points.
-  void collide(const std::vector<std::uint32_t>& keys);
+  /// Starts a step of step_s seconds in which `keys` (sorted, unique) are near each other: finds their contact
+  /// points. travel: how far any point of each body can get in this step at its present velocity (m).
+  void collide(const std::vector<std::uint32_t>& keys, const std::vector<double>& travel, double step_s);
   /// Pairs visited by the last collide(), in order.
   const std::vector<Pair*>& visited() const { return visited_; }
   /// Pairs that hold contact points, visited or not, in no particular order.
   const std::vector<Pair*>& live() const { return live_; }
+  /// Depth (m) of the deepest point that touches (distance <= 0, or it carries a force), if any.
+  static std::optional<double> touch_depth(const Pair& pair);
   /// Forgets pairs that the last collide() did not visit and for which `stale` says so.
   template <class Predicate>
   void forget(Predicate stale) {
@@ -58,6 +68,8 @@ class ContactPairs {
  private:
   struct Bullet;
   void remove(std::size_t live_index);
+  void predict(Pair& pair, double travel, double step_s);
+  void gather(Pair& pair);
   std::uint32_t count_, stamp_ = 0;
   std::vector<btCollisionObject*> bodies_;
   std::unique_ptr<Bullet> bullet_;

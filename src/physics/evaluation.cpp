@@ -31,8 +31,10 @@ class RestWatch {
   }
   void note(const World& world) {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
-      if (!world.awake(ids_[i])) steps_[i] = needed_;
-      else steps_[i] = speed(world, ids_[i]) < kRestSpeed ? steps_[i] + 1 : 0;
+      if (!world.awake(ids_[i]))
+        steps_[i] = needed_;
+      else
+        steps_[i] = speed(world, ids_[i]) < kRestSpeed ? steps_[i] + 1 : 0;
     }
   }
   bool all_rest() const {
@@ -122,6 +124,11 @@ struct Evaluator::Impl {
     if (!rest.all_rest()) out.violation = rest.fastest(world);
   }
 
+  /// An object that was only near what happened may tremble while it is awake: that is no motion.
+  bool moved(const EvaluationRequest& r, ObjectId id) const {
+    return (world.X_WO(id).translation() - r.from->X_WO(id).translation()).norm() > kTouchDistance;
+  }
+
   Evaluation evaluate(const EvaluationRequest& r) {
     if (!r.present || !r.from || !r.motion || r.motion->q.empty() || r.from->poses.size() != scene.size())
       throw std::invalid_argument("Evaluator: present, from and motion must be given and fit the scene");
@@ -134,7 +141,7 @@ struct Evaluator::Impl {
     out.interactions = log.interactions();
     for (const Interaction& i : out.interactions) out.second_order = out.second_order || i.a.valid();
     for (const ObjectId id : r.present->ids())
-      if (log.influenced(id) || id == r.held) out.state[id] = quantise(world.X_WO(id));
+      if (id == r.held || log.influenced(id) || moved(r, id)) out.state[id] = quantise(world.X_WO(id));
     return out;
   }
 };

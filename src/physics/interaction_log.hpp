@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <vector>
 
 #include "mamo/model/interaction.hpp"
@@ -30,9 +31,9 @@ class InteractionLog {
   bool moves(const World& world, ObjectId id) const;
   bool is_node(ObjectId id) const { return id == kRobot || (id.valid() && !fixture_[id.index()]); }
 
-  std::vector<bool> fixture_;                // by object
-  std::vector<Eigen::Vector3d> centre_;      // of mass, in the object's frame (m)
-  std::vector<Eigen::Vector3d> begin_;       // of mass, in world, when influenced first (m)
+  std::vector<bool> fixture_;            // by object
+  std::vector<Eigen::Vector3d> centre_;  // of mass, in the object's frame (m)
+  std::vector<Eigen::Vector3d> begin_;   // of mass, in world, when influenced first (m)
   WorldState from_;
   std::vector<bool> influenced_;
   std::vector<Interaction> interactions_;

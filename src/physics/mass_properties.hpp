@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <vector>
 
 #include "mamo/model/shape.hpp"
@@ -10,9 +11,9 @@ namespace mamo {
 
 /// Of a body of density 1.
 struct MassProperties {
-  double volume = 0;                                    // m^3
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();     // centre of mass (m)
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    // about the centre, axes of the frame (m^5)
+  double volume = 0;                                  // m^3
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   // centre of mass (m)
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about the centre, axes of the frame (m^5)
 };
 
 /// In the shape's frame.

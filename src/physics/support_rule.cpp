@@ -16,7 +16,8 @@ double beside(const PlacedShape& placed, const Eigen::Isometry3d& X_WB, const Ei
   const Eigen::Isometry3d X_WS = X_WB * placed.X_BS;
   const Eigen::AlignedBox3d box = bounds(placed.shape, X_WS);
   if (box.min().z() >= p.z()) return kInfinity;
-  const Eigen::Vector2d d = (box.min().head<2>() - p.head<2>()).cwiseMax(p.head<2>() - box.max().head<2>()).cwiseMax(0.0);
+  const Eigen::Vector2d d =
+      (box.min().head<2>() - p.head<2>()).cwiseMax(p.head<2>() - box.max().head<2>()).cwiseMax(0.0);
   if (d.norm() > 0) return d.norm();
   // Convex: the distance along the line has one minimum, so a ternary search finds whether it dips below zero.
   double lo = box.min().z(), hi = std::min(box.max().z(), p.z());

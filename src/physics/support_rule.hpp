@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <functional>
 #include <utility>
 #include <vector>
@@ -29,7 +30,7 @@ class SupportRule {
     double top;                      // m, of the lowest of them; -infinity: of none
   };
   const Scene& scene_;
-  std::vector<Start> start_;                // by object
+  std::vector<Start> start_;  // by object
   std::vector<ObjectId> supporting_fixtures_;
 };
 

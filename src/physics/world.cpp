@@ -1,6 +1,5 @@
 #include "mamo/physics/world.hpp"
 
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -13,6 +12,7 @@ namespace mamo {
 namespace {
 
 constexpr double kFloorFriction = 0.8;  // coefficient
+constexpr double kWakeDistance = 1e-3;  // m, between boxes
 
 btContactSolverInfo solver_settings(const PhysicsSettings& physics) {
   btContactSolverInfo info;
@@ -31,10 +31,10 @@ double floor_height(const Scene& scene) {
 
 }  // namespace
 
-// One step, in this order: the arm moves; gravity on what is awake; pairs near each other get contact points;
-// a contact with something that moves wakes a sleeper; velocities are solved; poses follow; what has rested
-// long enough goes to sleep. Invariants: `driven` and `free` hold indices of present bodies, ascending; a body
-// asleep has velocity zero and has not moved since it fell asleep or was placed.
+// One step, in this order: the arm's velocities; gravity on what is awake; pairs near each other get contact
+// points; a contact with something that moves wakes a sleeper; velocities are solved; poses follow, the arm's too;
+// what has rested long enough goes to sleep. Invariants: `driven` and `free` hold indices of present bodies, ascending;
+// a body asleep has velocity zero and has not moved since it fell asleep or was placed.
 struct World::Impl {
   std::shared_ptr<const ForwardKinematics> kinematics;
   PhysicsSettings physics;
@@ -44,14 +44,15 @@ struct World::Impl {
   std::unique_ptr<ContactPairs> pairs;
   btSequentialImpulseConstraintSolver solver;
   btContactSolverInfo info;
-  std::vector<bool> fixture;     // by object id
+  std::vector<bool> fixture;  // by object id
   ObjectSet present;
-  WorldState start;              // as given to reset
+  WorldState start;  // as given to reset
   std::int64_t steps = 0;
-  int sleep_after = 0;           // steps
+  int sleep_after = 0;  // steps
   // Scratch of one step.
   std::vector<Eigen::Isometry3d> X_WL;
   std::vector<std::uint32_t> near;
+  std::vector<double> travel;
   std::vector<btCollisionObject*> awake_bodies;
   std::vector<btPersistentManifold*> manifolds;
 
@@ -72,6 +73,7 @@ struct World::Impl {
       objects.push_back(b.bullet());
     }
     pairs = std::make_unique<ContactPairs>(objects);
+    travel.resize(bodies.size());
   }
 
   void add_links() {
@@ -139,11 +141,22 @@ struct World::Impl {
     std::sort(near.begin(), near.end());
   }
 
-  void wake_touched() {
+  void collide() {
+    for (std::size_t i = 0; i < bodies.size(); ++i) travel[i] = bodies[i].travel();
+    pairs->collide(near, travel, physics.step);
+  }
+
+  void wake_near() {
+    const auto sleeps = [](const Body& b) { return b.role() == Role::free && !b.awake(); };
     for (const ContactPairs::Pair* p : pairs->visited()) {
-      if (p->points == 0) continue;
-      for (const int i : {pairs->first(*p), pairs->second(*p)})
-        if (at(i).role() == Role::free && !at(i).awake()) at(i).wake();
+      Body &a = at(pairs->first(*p)), &b = at(pairs->second(*p));
+      if (!sleeps(a) && !sleeps(b)) continue;
+      // Two boxes get contact points only once they overlap, so that what lies on one could hover when it goes.
+      const bool close = p->points > 0 || (a.has_box() && b.has_box() &&
+                                           pairs->distance(pairs->first(*p), pairs->second(*p), kWakeDistance) < 1);
+      if (!close) continue;
+      if (sleeps(a)) a.wake();
+      if (sleeps(b)) b.wake();
     }
   }
 
@@ -187,25 +200,14 @@ struct World::Impl {
     for (const int f : free)
       if (at(f).awake()) at(f).apply_gravity();
     find_near();
-    pairs->collide(near);
+    collide();
     pairs->forget([this](int a, int b) { return at(a).active() || at(b).active(); });
-    wake_touched();
+    wake_near();
     solve();
+    for (const int d : driven) at(d).arrive(X_WL[at(d).link().index()]);
     for (const int f : free)
       if (at(f).awake()) at(f).integrate(physics.step);
     let_sleep();
-  }
-
-  /// Depth of the deepest touching point, if any.
-  static std::optional<double> touch_depth(const ContactPairs::Pair& pair) {
-    std::optional<double> depth;
-    for (const btPersistentManifold* m : pair.manifolds)
-      for (int i = 0; i < m->getNumContacts(); ++i) {
-        const btManifoldPoint& p = m->getContactPoint(i);
-        if (p.getDistance() > 0 && p.getAppliedImpulse() <= 0) continue;
-        depth = std::max({depth.value_or(0.0), -p.getDistance(), 0.0});
-      }
-    return depth;
   }
 };
 
@@ -234,7 +236,7 @@ void World::contacts(std::vector<Contact>& out) const {
   out.clear();
   Impl& w = *impl_;
   for (const ContactPairs::Pair* p : w.pairs->live()) {
-    const std::optional<double> depth = p->points > 0 ? Impl::touch_depth(*p) : std::nullopt;
+    const std::optional<double> depth = ContactPairs::touch_depth(*p);
     if (!depth) continue;
     const ObjectId a = w.at(w.pairs->first(*p)).name(), b = w.at(w.pairs->second(*p)).name();
     out.push_back({std::min(a, b), std::max(a, b), *depth});
@@ -262,7 +264,7 @@ void World::attach(ObjectId id, LinkId link) {
   w.driven.insert(std::lower_bound(w.driven.begin(), w.driven.end(), index), index);
   // Its contacts end here: with what is static for good, with free bodies until they are found anew.
   w.near.clear();
-  w.pairs->collide(w.near);
+  w.collide();
   w.pairs->forget([index](int a, int b) { return a == index || b == index; });
 }
 
@@ -271,7 +273,7 @@ void World::ignore_robot(ObjectId id) {
   const int index = static_cast<int>(impl_->first_object + id.index());
   Impl& w = *impl_;
   w.near.clear();
-  w.pairs->collide(w.near);
+  w.collide();
   w.pairs->forget([&w, index](int a, int b) { return b == index && w.at(a).name() == kRobot; });
 }
 

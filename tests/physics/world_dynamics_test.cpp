@@ -2,8 +2,9 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
-#include "mamo/physics/world.hpp"
 #include "support/pusher.hpp"
+
+#include "mamo/physics/world.hpp"
 
 namespace mamo {
 namespace {
@@ -85,6 +86,57 @@ TEST(WorldDynamics, WhatNothingComesNearDoesNotMoveAtAll) {
   }
 }
 
+//  |block|  on a tray that the arm moves: friction carries it, as long as the tray speeds up gently
+TEST(WorldDynamics, AMovingTrayCarriesWhatLiesOnIt) {
+  Scene scene = table();
+  Object o = block("b", 0, 0);
+  o.X_WO.translation().z() = 1.0 + 0.01 + 0.03;
+  const ObjectId id = add(scene, o);
+  World world(gantry({{Box{{0.2, 0.2, 0.02}}, at(0, 0, 0)}}), scene);
+  Eigen::Vector3d q(0, 0, 1);
+  world.reset(ObjectSet::all(scene), WorldState::start_of(scene), q);
+  double v = 0;
+  for (int k = 0; k < 240; ++k) {
+    v += (k < 120 ? 0.2 : -0.2) * scene.physics.step;
+    q.x() += v * scene.physics.step;
+    world.step(q);
+  }
+  EXPECT_NEAR(q.x(), 0.2, 0.01);
+  EXPECT_NEAR(world.X_WO(id).translation().x(), q.x(), 0.005);
+  EXPECT_NEAR(world.X_WO(id).translation().z(), 1.04, 0.001);
+}
+
+//  [upper] on [lower] on the table: the lower one is knocked away
+TEST(WorldDynamics, NothingHoversWhenItsSupportGoes) {
+  for (const double gap : {0.0, 1e-6, 5e-4}) {
+    Scene scene = table();
+    add(scene, block("lower", 0, 0, {0.05, 0.05, 0.05}, 0.2, 0.1));
+    Object o = block("upper", 0, 0, {0.05, 0.05, 0.05}, 0.2, 0.1);
+    o.X_WO.translation().z() += 0.05 + gap;
+    const ObjectId upper = add(scene, o);
+    World world(gantry(), scene);
+    Eigen::Vector3d q(-0.1, 0, kTop + 0.025);
+    world.reset(ObjectSet::all(scene), WorldState::start_of(scene), q);
+    for (int k = 0; k < 60; ++k) q.x() += 0.5 * scene.physics.step, world.step(q);
+    for (int k = 0; k < 120; ++k) world.step(q);
+    EXPECT_LT(world.X_WO(upper).translation().z(), kTop + 0.05) << "gap " << gap;
+  }
+}
+
+TEST(WorldDynamics, WhatIsHeldFollowsItsLink) {
+  Scene scene = table();
+  const ObjectId id = add(scene, can("c", 0.1, 0.1));
+  World world(gantry(), scene);
+  const Eigen::Vector3d q(0.1, 0.1, kTop + 0.15);
+  world.reset(ObjectSet::all(scene), WorldState::start_of(scene), q);
+  world.step(q);
+  world.attach(id, LinkId{3});
+  const Eigen::Vector3d before = world.X_WO(id).translation();
+  for (int k = 1; k <= 100; ++k) world.step(q + Eigen::Vector3d(-1e-3 * k, 0, 2e-3 * k));
+  EXPECT_LT((world.X_WO(id).translation() - before - Eigen::Vector3d(-0.1, 0, 0.2)).norm(), 1e-12);
+  EXPECT_THROW(world.attach(id, LinkId{3}), std::invalid_argument);
+}
+
 // Bullet's own world, everything awake and driven the same way, computes the same motion of a single object.
 TEST(WorldDynamics, APushedBlockMovesAsInBulletsOwnWorld) {
   Scene scene = table();
@@ -102,7 +154,8 @@ TEST(WorldDynamics, APushedBlockMovesAsInBulletsOwnWorld) {
   oracle.getSolverInfo().m_numIterations = scene.physics.iterations;
   oracle.getSolverInfo().m_solverMode |= SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS;
   btBoxShape table_shape({1, 1, 0.05}), block_shape({half.x(), half.y(), half.z()}), finger_shape({0.02, 0.02, 0.02});
-  for (btBoxShape* shape : {&table_shape, &block_shape, &finger_shape}) shape->setMargin(std::min(shape->getMargin(), 0.005));
+  for (btBoxShape* shape : {&table_shape, &block_shape, &finger_shape})
+    shape->setMargin(std::min(shape->getMargin(), 0.005));
   const auto body = [&](double mass, btBoxShape& shape, const btVector3& p, double friction) {
     btVector3 inertia(0, 0, 0);
     if (mass > 0) shape.calculateLocalInertia(mass, inertia);

@@ -5,8 +5,9 @@
 #include <set>
 #include <thread>
 
-#include "mamo/physics/world.hpp"
 #include "support/shelf_pushes.hpp"
+
+#include "mamo/physics/world.hpp"
 
 namespace mamo {
 namespace {

@@ -5,21 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "support/fixtures.hpp"
+
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/motion.hpp"
 #include "mamo/physics/evaluation.hpp"
-#include "support/fixtures.hpp"
 
 namespace mamo::pushing {
 
 using fixtures::at;
 
 /// Joints x, y, z (prismatic, m): the finger's centre in world. The finger is a sphere of 2 cm radius.
-inline std::shared_ptr<const ForwardKinematics> gantry(std::vector<PlacedShape> finger = {{Sphere{0.02}, at(0, 0, 0)}}) {
+inline std::shared_ptr<const ForwardKinematics> gantry(std::vector<PlacedShape> finger = {
+                                                           {Sphere{0.02}, at(0, 0, 0)}}) {
   auto model = std::make_shared<RobotModel>();
   model->name = "gantry";
   model->links.push_back({"base", JointId{-1}, {}, {}, 0});
-  const std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  const std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+                                             Eigen::Vector3d::UnitZ()};
   for (int i = 0; i < 3; ++i) {
     Joint j;
     j.name = std::string(1, static_cast<char>('x' + i));

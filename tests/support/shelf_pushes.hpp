@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "mamo/physics/evaluation.hpp"
 #include "support/pusher.hpp"
+
+#include "mamo/physics/evaluation.hpp"
 
 namespace mamo::pushing {
 
@@ -22,7 +23,7 @@ inline Scene permissive_shelf(int movables, int immovables, std::uint64_t seed) 
 }
 
 /// Into the shelf by way of two random points, deep among the objects.
-inline TimedPath random_push(RandomStream& random, double step_s, double speed = 0.2) {
+inline TimedPath random_push(RandomStream& random, double step_s, double speed = 0.3) {
   const double z = random.uniform(0.79, 0.83), y = random.uniform(-0.75, -0.25);
   const Eigen::Vector3d mouth(0.4, y, z);
   const Eigen::Vector3d inside(random.uniform(0.6, 0.8), y + random.uniform(-0.08, 0.08), z);

@@ -16,12 +16,12 @@ namespace mamo {
 /// Outcome of a motion: a pure function of (scene, present, state, motion), bit for bit, whichever worker ran it.
 struct Evaluation {
   bool valid = false;
-  bool cancelled = false;              // stopped from outside: nothing else is meaningful
-  std::optional<Violation> violation;  // the first one
-  WorldState state;                    // at the end, quantised; objects not present keep their poses
-  double settle_s = 0;                 // waited after the last point until all rested: whole steps
+  bool cancelled = false;                 // stopped from outside: nothing else is meaningful
+  std::optional<Violation> violation;     // the first one
+  WorldState state;                       // at the end, quantised; objects not present keep their poses
+  double settle_s = 0;                    // waited after the last point until all rested: whole steps
   std::vector<Interaction> interactions;  // sorted by (first time, a, b): robot-object and object-object
-  bool second_order = false;           // some interaction is between two objects
+  bool second_order = false;              // some interaction is between two objects
   int steps = 0;
 };
 
@@ -29,11 +29,11 @@ struct EvaluationRequest {
   const ObjectSet* present = nullptr;  // simulated objects (fixtures always are)
   const WorldState* from = nullptr;
   const TimedPath* motion = nullptr;
-  ObjectId untouchable = kNoObject;    // the task's target: touching it is a violation whatever its constraints
-  ObjectId grasped = kNoObject;        // the arm passes through it: a gripper closing on it
-  ObjectId held = kNoObject;           // attached to held_link from the start on
+  ObjectId untouchable = kNoObject;  // the task's target: touching it is a violation whatever its constraints
+  ObjectId grasped = kNoObject;      // the arm passes through it: a gripper closing on it
+  ObjectId held = kNoObject;         // attached to held_link from the start on
   LinkId held_link;
-  StopSource* stop = nullptr;          // may be null
+  StopSource* stop = nullptr;                 // may be null
   const std::atomic<bool>* cancel = nullptr;  // may be null: speculation that can no longer matter
 };
 
@@ -44,7 +44,7 @@ struct EvaluationRequest {
 /// that violates a constraint ends the evaluation: of several violations in one step the first by kind, then by
 /// ids is reported. Tilt, displacement and support refer to the scene's start, whatever state the motion starts
 /// from; pairs of bodies that touch there (kTouchDistance) may touch for ever. Objects that neither the robot nor
-/// something it moved has touched end exactly where they began.
+/// something it moved has touched end exactly where they began (unless they moved by more than kTouchDistance).
 class Evaluator {
  public:
   Evaluator(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene);
