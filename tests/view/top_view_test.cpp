@@ -111,8 +111,8 @@ TEST(Describe, AProblemNamesRobotJointsObjectsTaskAndProfile) {
   Problem problem = shelf_problem();
   problem.warnings = {"a visual mesh is missing"};
   const std::string text = describe(problem);
-  for (const char* piece : {"pr2_like", "7 joints plan", "shoulder_pan", "continuous", "tip tool", "10 pairs", "object_0",
-                            "support", "movable", "task reach", "contact-only", "warning: a visual mesh is missing"})
+  for (const char* piece : {"pr2_like", "7 joints plan", "shoulder_pan", "continuous", "tip tool", "10 pairs",
+                            "object_0", "support", "movable", "task reach", "contact-only", "warning: a visual mesh is missing"})
     EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
 }
 
