@@ -9,7 +9,7 @@ namespace {
 
 static_assert(sizeof(btScalar) == sizeof(double), "the float64 build of Bullet is the one that is used");
 
-constexpr double kContained = 1e-6;  // m: what sticks out less counts as contained
+constexpr double kContained = 1e-6;  // m: what sticks out less counts as contained; the grid may add 1e-4 of the extent
 
 struct Plane {
   Eigen::Vector3d normal;  // unit, outward
@@ -134,8 +134,11 @@ std::optional<ConvexHull> convex_hull(const std::vector<Eigen::Vector3d>& points
   btConvexHullComputer computer;
   computer.compute(points[0].data(), sizeof(Eigen::Vector3d), static_cast<int>(points.size()), 0.0, 0.0);
   ConvexHull hull;
-  for (int i = 0; i < computer.vertices.size(); ++i)
-    hull.vertices.push_back(points[static_cast<std::size_t>(computer.original_vertex_index[i])]);
+  for (int i = 0; i < computer.vertices.size(); ++i) {
+    // The grid points, not the points they stand for: only with them are the faces of a dense mesh convex.
+    const btVector3& v = computer.vertices[i];
+    hull.vertices.emplace_back(v.x(), v.y(), v.z());
+  }
   for (int f = 0; f < computer.faces.size(); ++f) {
     const btConvexHullComputer::Edge* const first = &computer.edges[computer.faces[f]];
     const int a = first->getSourceVertex();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <optional>
 #include <vector>
 
@@ -9,9 +10,9 @@
 
 namespace mamo::io {
 
-/// The hull of the points: a subset of them as vertices, closed triangles seen counter-clockwise from outside,
-/// volume and centroid. Points closer to the hull of the others than 1e-4 of the extent may be left out (Bullet's
-/// hull computes on an integer grid). None when the points span no volume or are not finite.
+/// The hull of the points: closed triangles seen counter-clockwise from outside, volume and centroid. Bullet's hull
+/// computes on an integer grid of 1e-4 of the extent in each axis, so a vertex lies up to half of that beside its
+/// point (the extremes in x, y and z stay where they are). None when the points span no volume or are not finite.
 std::optional<ConvexHull> convex_hull(const std::vector<Eigen::Vector3d>& points);
 
 struct SimplifyOptions {
@@ -24,9 +25,10 @@ struct SimplifiedHull {
   ConvexHull hull;
   double growth = 0;  // m: how far its surface lies outside the original at most; 0 when nothing was changed
 };
-/// A hull of few vertices that contains the given one (to 1e-6 m): the vertices that stick out most are taken one
-/// after the other, then all are moved outward along their normals until nothing sticks out. Deterministic. A hull
-/// that is small already comes back unchanged. `growth` may exceed max_growth: the caller says so.
+/// A hull of few vertices that contains the given one (to 1e-6 m and the grid of convex_hull): the vertices that stick
+/// out most are taken one after the other, then all are moved outward along their normals until nothing sticks out.
+/// Deterministic. A hull that is small already comes back unchanged. `growth` may exceed max_growth: the caller says
+/// so.
 SimplifiedHull simplify(const ConvexHull& hull, const SimplifyOptions& options = {});
 
 }  // namespace mamo::io

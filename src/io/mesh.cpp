@@ -1,10 +1,10 @@
 #include "mamo/io/mesh.hpp"
 
+#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include <assimp/Importer.hpp>
 #include <filesystem>
 
 #include "io/convex_hull.hpp"

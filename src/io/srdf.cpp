@@ -2,6 +2,7 @@
 #include <set>
 
 #include "io/xml_file.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/nearest_name.hpp"
 
@@ -95,8 +96,9 @@ class SrdfReader {
       } else if (kind == "group") {
         const std::string name = attribute(e, "name");
         const auto sub = groups_.find(name);
-        if (sub == groups_.end()) return fail(e, "group '" + path.front() + "' contains the unknown group '" + name +
-                                                      "'; nearest is '" + nearest_name(name, order_) + "'");
+        if (sub == groups_.end())
+          return fail(e, "group '" + path.front() + "' contains the unknown group '" + name + "'; nearest is '" +
+                             nearest_name(name, order_) + "'");
         if (std::find(path.begin(), path.end(), name) != path.end())
           return fail(e, "group '" + name + "' contains itself");
         if (!finished.count(name)) collect(sub->second, out, joints, path, finished);

@@ -78,13 +78,13 @@ std::string one_line(std::string_view text) {
   return out;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   const bool cut = text.size() > 60;
   return "'" + one_line(text.substr(0, 60)) + (cut ? "...'" : "'");
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   bool negative = false;
   std::string_view rest = text;
   if (!rest.empty() && rest.front() == '-') negative = true, rest.remove_prefix(1);

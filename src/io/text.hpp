@@ -25,7 +25,7 @@ std::string yaml_list(const Range& values) {
 std::string yaml_string(std::string_view text);
 
 /// In single quotes, control characters shown as \xNN, cut after 60 characters: fit for a one-line message.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 /// Control characters replaced, for whole messages made by other libraries.
 std::string one_line(std::string_view text);
 

@@ -79,7 +79,7 @@ Result<JoinedPlan> join_segments(const Plan& plan, const Problem& problem) {
   for (std::size_t i = 0; i < joined.joint_names.size(); ++i) {
     const JointId id = problem.robot.model->find_joint(joined.joint_names[i]);
     const int variable = id.valid() ? problem.robot.model->joints[id.index()].variable : -1;
-    if (variable < 0) return Error{"plan: the robot has no movable joint " + quoted(joined.joint_names[i])};
+    if (variable < 0) return Error{"plan: the robot has no movable joint " + in_quotes(joined.joint_names[i])};
     full[static_cast<Eigen::Index>(i)] = problem.robot.posture[variable];
   }
   for (int i = 0; i < problem.robot.dof(); ++i) full[i] = problem.q_start[i];

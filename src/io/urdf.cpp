@@ -9,6 +9,7 @@
 
 #include "io/resource_path.hpp"
 #include "io/urdf_check.hpp"
+
 #include "mamo/io/load.hpp"
 #include "mamo/io/mesh.hpp"
 
@@ -45,7 +46,8 @@ std::pair<urdf::ModelInterfaceSharedPtr, std::vector<std::string>> parse_quietly
 std::string one_line(const std::vector<std::string>& messages) {
   std::string text;
   for (const std::string& m : messages) text += (text.empty() ? "" : "; ") + m;
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   return text.empty() ? "no robot in it" : text.substr(0, 500);
 }
 
@@ -123,10 +125,18 @@ class Builder {
     joint.child = child;
     joint.X_PJ = pose_of(from.parent_to_joint_origin_transform);
     switch (from.type) {
-      case urdf::Joint::REVOLUTE: joint.type = JointType::revolute; break;
-      case urdf::Joint::CONTINUOUS: joint.type = JointType::continuous; break;
-      case urdf::Joint::PRISMATIC: joint.type = JointType::prismatic; break;
-      default: joint.type = JointType::fixed; break;  // check_urdf refused floating and planar
+      case urdf::Joint::REVOLUTE:
+        joint.type = JointType::revolute;
+        break;
+      case urdf::Joint::CONTINUOUS:
+        joint.type = JointType::continuous;
+        break;
+      case urdf::Joint::PRISMATIC:
+        joint.type = JointType::prismatic;
+        break;
+      default:
+        joint.type = JointType::fixed;
+        break;  // check_urdf refused floating and planar
     }
     if (joint.type == JointType::fixed) return joint;
     joint.axis = vector_of(from.axis).normalized();
@@ -137,7 +147,8 @@ class Builder {
     if (from.limits && from.limits->velocity > 0)
       joint.max_velocity = from.limits->velocity;
     else
-      warnings_.push_back(place(lines_.joints, joint.name) + "joint '" + joint.name + "' has no velocity limit; 1 is used");
+      warnings_.push_back(place(lines_.joints, joint.name) + "joint '" + joint.name +
+                          "' has no velocity limit; 1 is used");
     return joint;
   }
 
@@ -182,13 +193,16 @@ class Builder {
 
   static std::optional<Shape> primitive_of(const urdf::Geometry& geometry) {
     switch (geometry.type) {
-      case urdf::Geometry::BOX: return Box{vector_of(static_cast<const urdf::Box&>(geometry).dim)};
-      case urdf::Geometry::SPHERE: return Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
+      case urdf::Geometry::BOX:
+        return Box{vector_of(static_cast<const urdf::Box&>(geometry).dim)};
+      case urdf::Geometry::SPHERE:
+        return Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
       case urdf::Geometry::CYLINDER: {
         const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
         return Cylinder{cylinder.radius, cylinder.length};
       }
-      default: return std::nullopt;
+      default:
+        return std::nullopt;
     }
   }
 
@@ -222,7 +236,8 @@ class Builder {
       if (file)
         visual.mesh_path = *file;
       else if (missing_visuals_.insert(mesh.filename).second)
-        warnings_.push_back(place(lines_.links, link.name) + "link '" + link.name + "': visual mesh " + file.error().message);
+        warnings_.push_back(place(lines_.links, link.name) + "link '" + link.name + "': visual mesh " +
+                            file.error().message);
     }
     link.visual.push_back(std::move(visual));
   }

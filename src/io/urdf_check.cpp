@@ -18,17 +18,19 @@ struct NumberRule {
   bool positive;
 };
 constexpr NumberRule kNumberRules[] = {
-    {"origin", "xyz", 3, false, false},      {"origin", "rpy", 3, false, false},
-    {"axis", "xyz", 3, true, false},         {"box", "size", 3, true, true},
-    {"cylinder", "radius", 1, true, true},   {"cylinder", "length", 1, true, true},
-    {"sphere", "radius", 1, true, true},     {"mesh", "scale", 3, false, false},
-    {"limit", "lower", 1, false, false},     {"limit", "upper", 1, false, false},
-    {"limit", "velocity", 1, false, false},  {"limit", "effort", 1, false, false},
+    {"origin", "xyz", 3, false, false},       {"origin", "rpy", 3, false, false},
+    {"axis", "xyz", 3, true, false},          {"box", "size", 3, true, true},
+    {"cylinder", "radius", 1, true, true},    {"cylinder", "length", 1, true, true},
+    {"sphere", "radius", 1, true, true},      {"mesh", "scale", 3, false, false},
+    {"limit", "lower", 1, false, false},      {"limit", "upper", 1, false, false},
+    {"limit", "velocity", 1, false, false},   {"limit", "effort", 1, false, false},
     {"mimic", "multiplier", 1, false, false}, {"mimic", "offset", 1, false, false},
     {"mass", "value", 1, true, false},
 };
 
-std::string plural(std::size_t count) { return count == 1 ? "a finite number" : std::to_string(count) + " finite numbers"; }
+std::string plural(std::size_t count) {
+  return count == 1 ? "a finite number" : std::to_string(count) + " finite numbers";
+}
 
 class Checker {
  public:
@@ -61,7 +63,8 @@ class Checker {
     if (name.empty()) return fail(e, "<" + kind + "> without a name");
     if (!names.emplace(name, e->GetLineNum()).second)
       return fail(e, kind + " '" + name + "' is defined twice (first in line " + std::to_string(names[name]) + ")");
-    if (names.size() > kMostElements) fail(e, "more than " + std::to_string(kMostElements) + " elements <" + kind + ">");
+    if (names.size() > kMostElements)
+      fail(e, "more than " + std::to_string(kMostElements) + " elements <" + kind + ">");
   }
 
   void check_link(const XMLElement* link) {
@@ -74,8 +77,8 @@ class Checker {
       if (!shape) return fail(c, "link '" + name + "': <" + c->Name() + "> without a geometry");
       const std::string kind = shape->Name();
       if (kind != "box" && kind != "cylinder" && kind != "sphere" && kind != "mesh")
-        return fail(shape, "link '" + name + "': unsupported geometry <" + kind +
-                               ">, expected box, cylinder, sphere or mesh");
+        return fail(shape,
+                    "link '" + name + "': unsupported geometry <" + kind + ">, expected box, cylinder, sphere or mesh");
       if (kind == "mesh" && attribute(shape, "filename").empty())
         return fail(shape, "link '" + name + "': <mesh> without a filename");
     }
@@ -92,7 +95,8 @@ class Checker {
         continue;
       }
       const auto numbers = parse_numbers(text, rule.count);
-      if (!numbers) return fail(e, what + " is '" + std::string(text).substr(0, 60) + "', expected " + plural(rule.count));
+      if (!numbers)
+        return fail(e, what + " is '" + std::string(text).substr(0, 60) + "', expected " + plural(rule.count));
       for (double x : *numbers)
         if (rule.positive && !(x > 0)) return fail(e, what + " is '" + text + "', expected sizes above 0");
     }
@@ -111,27 +115,33 @@ class Checker {
     if (known.count(target)) return;
     std::vector<std::string> names;
     for (const auto& [k, line] : known) names.push_back(k);
-    fail(e, "joint '" + name + "': unknown " + key + " '" + target + "'; nearest is '" + nearest_name(target, names) + "'");
+    fail(e, "joint '" + name + "': unknown " + key + " '" + target + "'; nearest is '" + nearest_name(target, names) +
+                "'");
   }
 
   void check_joint(const XMLElement* joint) {
     const std::string name = attribute(joint, "name"), type = attribute(joint, "type");
     if (type == "floating" || type == "planar")
-      return fail(joint, "joint '" + name + "': type '" + type + "' is not supported (place the robot with its base pose)");
+      return fail(joint,
+                  "joint '" + name + "': type '" + type + "' is not supported (place the robot with its base pose)");
     if (type != "fixed" && type != "revolute" && type != "continuous" && type != "prismatic")
-      return fail(joint, "joint '" + name + "': type '" + type + "', expected fixed, revolute, continuous or prismatic");
+      return fail(joint,
+                  "joint '" + name + "': type '" + type + "', expected fixed, revolute, continuous or prismatic");
     check_reference(joint, "parent", "link", lines_.links, true);
     check_reference(joint, "child", "link", lines_.links, true);
     if (type == "fixed") return;
     check_reference(joint, "mimic", "joint", lines_.joints, false);
     if (const XMLElement* axis = joint->FirstChildElement("axis")) {
       const auto xyz = parse_numbers(attribute(axis, "xyz"), 3);
-      if (xyz && std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]) < 1e-9) fail(axis, "joint '" + name + "': axis of length 0");
+      if (xyz && std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]) < 1e-9)
+        fail(axis, "joint '" + name + "': axis of length 0");
     }
     if (type == "continuous") return;
     const XMLElement* limit = joint->FirstChildElement("limit");
     if (!limit) return fail(joint, "joint '" + name + "': a " + type + " joint needs <limit>");
-    const auto number = [&](const char* key) { return parse_numbers(attribute(limit, key), 1).value_or(std::vector{0.0})[0]; };
+    const auto number = [&](const char* key) {
+      return parse_numbers(attribute(limit, key), 1).value_or(std::vector{0.0})[0];
+    };
     if (number("lower") > number("upper"))
       fail(limit, "joint '" + name + "': lower limit " + attribute(limit, "lower") + " is above upper limit " +
                       attribute(limit, "upper"));

@@ -19,17 +19,28 @@ const tinyxml2::XMLNode* find_doctype(const tinyxml2::XMLDocument& document) {
 /// tinyxml2's ErrorStr is "Error=NAME ErrorID=.. Line number=..: detail": keep the name.
 std::string reason_of(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT: return "empty document";
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT: return "an element is closed that was not opened last";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE: return "malformed attribute";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED: return "elements are nested too deeply (limit 100)";
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT: return "malformed element";
-    case tinyxml2::XML_ERROR_PARSING_TEXT: return "malformed text";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT: return "comment without end";
-    case tinyxml2::XML_ERROR_PARSING_CDATA: return "CDATA section without end";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION: return "malformed declaration";
-    case tinyxml2::XML_ERROR_PARSING: return "unexpected end or element never closed";
-    default: return document.ErrorName();
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "empty document";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is never closed, or closed out of order";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "malformed attribute";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply (limit 100)";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "malformed element";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "malformed text";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "comment without end";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "CDATA section without end";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "malformed declaration";
+    case tinyxml2::XML_ERROR_PARSING:
+      return "unexpected end or element never closed";
+    default:
+      return document.ErrorName();
   }
 }
 
@@ -53,11 +64,13 @@ Result<XmlFile> load_xml(const std::string& path, const std::string& root_name, 
     return Error{path + ":" + std::to_string(std::max(1, file.document->ErrorLineNum())) +
                  ": not well-formed XML: " + reason_of(*file.document)};
   if (const tinyxml2::XMLNode* doctype = find_doctype(*file.document))
-    return Error{path + ":" + std::to_string(doctype->GetLineNum()) + ": DOCTYPE and entity declarations are not accepted"};
+    return Error{path + ":" + std::to_string(doctype->GetLineNum()) +
+                 ": DOCTYPE and entity declarations are not accepted"};
   file.root = file.document->RootElement();
   if (!file.root) return Error{path + ": no element, expected <" + root_name + ">"};
   if (file.root->Name() != root_name)
-    return file.error_at(file.root, "root element is <" + std::string(file.root->Name()) + ">, expected <" + root_name + ">");
+    return file.error_at(file.root,
+                         "root element is <" + std::string(file.root->Name()) + ">, expected <" + root_name + ">");
   return file;
 }
 

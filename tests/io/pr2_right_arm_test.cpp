@@ -47,7 +47,8 @@ TEST(Pr2RightArm, HomePutsTheGraspingFrameWhereThePublishedProblemsStart) {
   const Robot robot = at_home(load(), "r_gripper_finger_dummy_planning_link");
   const ForwardKinematics kinematics(robot);
   const Eigen::Isometry3d X_WT = kinematics.tip_pose(robot.group_part(robot.posture));
-  EXPECT_LT((X_WT.translation() - Eigen::Vector3d(0.3753, -0.5777, 0.9200)).norm(), 2e-4) << X_WT.translation().transpose();
+  EXPECT_LT((X_WT.translation() - Eigen::Vector3d(0.3753, -0.5777, 0.9200)).norm(), 2e-4)
+      << X_WT.translation().transpose();
   EXPECT_LT((X_WT.linear().col(0) - Eigen::Vector3d(0.819, 0.572, -0.028)).norm(), 2e-3);
 }
 

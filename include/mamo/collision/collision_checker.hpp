@@ -54,7 +54,7 @@ class CollisionChecker {
                   const ObjectSet& watched, CollisionReport& out);
 
   /// The parameters in [0, 1] that check_edge looks at, ascending.
-  std::vector<double> edge_samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1) const;
+  std::vector<double> edge_samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1);
 
   /// An object rigidly attached to a link counts as robot from now on (X_LO: object in link), no longer as an
   /// object, and is tested against the links that self_pairs has for that link; detach ends it.

@@ -18,10 +18,11 @@ struct LoadOptions {
   std::string srdf;
   std::string base, tip, group;                     // of the replacing robot
   std::map<std::string, std::string> package_path;  // NAME -> DIR
-  std::string request;                              // MotionBenchMaker request file
+  std::string request;                              // MotionBenchMaker request file (not read yet)
   std::string task;                                 // "", "reach" or "retrieve"
   std::vector<std::string> movable;                 // globs of object ids to make movable
   std::optional<double> default_mass, default_friction;
+  std::string constraints;  // profile that replaces the file's; on a shelf scene "legacy" also opens the walls
 };
 
 /// What a URDF says, before a group is chosen. Mesh shapes are hulls already.

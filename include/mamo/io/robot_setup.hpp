@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <map>
 #include <string>
 #include <utility>
@@ -22,11 +23,11 @@ struct GroupSpec {
   std::string base, tip;
   std::vector<std::string> joints;
   std::string group;
-  const Srdf* srdf = nullptr;            // needed when `group` is given; outlives the call
-  std::map<std::string, double> start;   // rad or m, by joint; may name joints outside the group too
-  std::map<std::string, double> fixed;   // rad or m, joints outside the group
+  const Srdf* srdf = nullptr;                              // needed when `group` is given; outlives the call
+  std::map<std::string, double> start;                     // rad or m, by joint; may name joints outside the group too
+  std::map<std::string, double> fixed;                     // rad or m, joints outside the group
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // root link in world
-  double speed_scale = 0.1;              // in (0, 1]
+  double speed_scale = 0.1;                                // in (0, 1]
 };
 
 /// A robot ready to plan but for its self-collision pairs (choose_self_pairs, module collision). Joints without

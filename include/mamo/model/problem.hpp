@@ -36,11 +36,19 @@ using Task = std::variant<ReachPose, ReachJoints, Retrieve>;
 enum class Profile { contact_only, full, legacy };
 std::string_view to_string(Profile profile);
 
+/// Where the robot came from, so that a problem can be written down again, and what its SRDF disables.
+struct RobotFiles {
+  std::string urdf, srdf;                           // paths as found; no SRDF: empty
+  std::map<std::string, std::string> package_path;  // NAME -> DIR
+  std::vector<std::pair<LinkId, LinkId>> disabled;  // by the SRDF, first < second
+};
+
 struct Problem {
   std::string name;    // file name without folder
   std::string path;    // as given
   std::string sha256;  // of the file's bytes, 64 hex digits
   Robot robot;
+  RobotFiles robot_files;
   Scene scene;
   Eigen::VectorXd q_start;  // group joints
   Task task;
