@@ -36,30 +36,42 @@ std::string pose(const Eigen::Isometry3d& X) {
 
 std::string type_name(JointType type) {
   switch (type) {
-    case JointType::fixed: return "fixed";
-    case JointType::revolute: return "revolute";
-    case JointType::continuous: return "continuous";
-    case JointType::prismatic: return "prismatic";
+    case JointType::fixed:
+      return "fixed";
+    case JointType::revolute:
+      return "revolute";
+    case JointType::continuous:
+      return "continuous";
+    case JointType::prismatic:
+      return "prismatic";
   }
   return "unknown";
 }
 
 std::string kind_name(ObjectKind kind) {
   switch (kind) {
-    case ObjectKind::fixture: return "fixture";
-    case ObjectKind::immovable: return "immovable";
-    case ObjectKind::movable: return "movable";
+    case ObjectKind::fixture:
+      return "fixture";
+    case ObjectKind::immovable:
+      return "immovable";
+    case ObjectKind::movable:
+      return "movable";
   }
   return "unknown";
 }
 
 std::string touch_name(Touch touch) {
   switch (touch) {
-    case Touch::allowed: return "allowed";
-    case Touch::robot: return "robot";
-    case Touch::objects: return "objects";
-    case Touch::forbidden: return "forbidden";
-    case Touch::support: return "support";
+    case Touch::allowed:
+      return "allowed";
+    case Touch::robot:
+      return "robot";
+    case Touch::objects:
+      return "objects";
+    case Touch::forbidden:
+      return "forbidden";
+    case Touch::support:
+      return "support";
   }
   return "unknown";
 }

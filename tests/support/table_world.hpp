@@ -10,9 +10,10 @@
 
 #include <numbers>
 
+#include "support/fixtures.hpp"
+
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/planner.hpp"
-#include "support/fixtures.hpp"
 
 namespace mamo::fixtures {
 

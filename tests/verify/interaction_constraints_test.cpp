@@ -1,7 +1,8 @@
 // Every constraint on objects, broken by a plan made for it, and kept by one that comes close.
-#include "mamo/physics/world.hpp"
 #include "support/table_world.hpp"
 #include "support/verdicts.hpp"
+
+#include "mamo/physics/world.hpp"
 
 namespace mamo {
 namespace {

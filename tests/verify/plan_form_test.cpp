@@ -1,9 +1,10 @@
 // What a plan must look like before anything moves, and the arm against itself and the fixtures.
 #include <limits>
 
-#include "mamo/collision/collision_checker.hpp"
 #include "support/table_world.hpp"
 #include "support/verdicts.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo {
 namespace {

@@ -46,8 +46,9 @@ TEST_F(Retrieval, HoldsAndTheObjectIsWhereTheArmBroughtIt) {
       kinematics.tip_pose(over_table(0.0)).inverse() * problem.scene.objects[soup.index()].X_WO;
   const Eigen::Isometry3d expected = kinematics.tip_pose(problem.q_start) * X_TO;
   EXPECT_LT((verdict.objects_after[2].at(soup).translation() - expected.translation()).norm(), 1e-4);
-  EXPECT_LT((verdict.objects_after[1].at(soup).translation() -
-             problem.scene.objects[soup.index()].X_WO.translation()).norm(), 1e-4);
+  EXPECT_LT(
+      (verdict.objects_after[1].at(soup).translation() - problem.scene.objects[soup.index()].X_WO.translation()).norm(),
+      1e-4);
 }
 
 TEST_F(Retrieval, WithoutAGraspSegmentTouchingIsForbidden) {
@@ -96,8 +97,8 @@ TEST_F(Retrieval, TheHeldObjectCountsAsRobot) {
   // A low thing beyond the fingers' reach but in the way of the can's lower end, once the can is dragged.
   const auto drag = [&] {
     Plan made = path();
-    made.segments[2] = motion(problem, {over_table(0.0), over_table(0.0, -0.33), over_table(0.3, -0.33)},
-                              SegmentKind::extract);
+    made.segments[2] =
+        motion(problem, {over_table(0.0), over_table(0.0, -0.33), over_table(0.3, -0.33)}, SegmentKind::extract);
     return made;
   };
   std::get<Retrieve>(problem.task).home = over_table(0.3, -0.33);
@@ -128,8 +129,8 @@ TEST_F(Retrieval, TheHeldObjectMayTouchItsSupportUntilItClearsItAndNotAgain) {
   std::get<Retrieve>(problem.task).home = over_table(0.2);
   EXPECT_TRUE(holds(judge(problem, drag)));
   // Lifted and put down again, deeper than it stood: a touch.
-  drag.segments[2] = motion(problem, {over_table(0.0), over_table(0.0, -0.35), over_table(0.0, -0.298)},
-                            SegmentKind::extract);
+  drag.segments[2] =
+      motion(problem, {over_table(0.0), over_table(0.0, -0.35), over_table(0.0, -0.298)}, SegmentKind::extract);
   std::get<Retrieve>(problem.task).home = over_table(0.0, -0.298);
   Verdict verdict = judge(problem, drag);
   EXPECT_TRUE(rejects(verdict, ViolationKind::robot_touch, 2));
