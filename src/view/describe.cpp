@@ -197,6 +197,7 @@ std::string describe(const Plan& plan, const Problem& problem) {
   std::size_t points = 0;
   std::vector<std::vector<std::string>> rows = {{"segment", "kind", "object", "points", "duration", "joint path"}};
   std::map<ObjectId, Eigen::Isometry3d> final_poses;
+  const auto known = [&](ObjectId id) { return id.valid() && id.index() < problem.scene.size(); };
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     const Segment& segment = plan.segments[s];
     double length = 0;
@@ -205,10 +206,11 @@ std::string describe(const Plan& plan, const Problem& problem) {
     duration += segment.motion.duration();
     points += segment.motion.t.size();
     rows.push_back({std::to_string(s), std::string(to_string(segment.kind)),
-                    segment.object.valid() ? problem.scene[segment.object].id : "-",
+                    known(segment.object) ? problem.scene[segment.object].id : "-",
                     std::to_string(segment.motion.t.size()), fixed3(segment.motion.duration()) + " s",
                     fixed3(length) + " rad"});
-    for (const auto& [id, X] : segment.objects_after) final_poses[id] = X;
+    for (const auto& [id, X] : segment.objects_after)
+      if (known(id)) final_poses[id] = X;
   }
   std::string out = "plan: " + std::to_string(plan.segments.size()) + " segments, " + std::to_string(points) +
                     " points, " + fixed3(duration) + " s\n" + table(rows);

@@ -118,6 +118,13 @@ TEST(Describe, AProblemNamesRobotJointsObjectsTaskAndProfile) {
     EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
 }
 
+TEST(Describe, APlanForAnotherSceneLeavesUnknownObjectsOut) {
+  Problem problem = shelf_problem();
+  const Plan plan = two_segments(problem);
+  problem.scene = {};
+  EXPECT_NE(describe(plan, problem).find("3 segments"), std::string::npos);
+}
+
 TEST(Describe, APlanTellsItsSegmentsAndWhatMoves) {
   const Problem problem = shelf_problem();
   const std::string text = describe(two_segments(problem), problem);
