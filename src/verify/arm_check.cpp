@@ -45,7 +45,8 @@ ArmCheck::ArmCheck(const Problem& problem, const ForwardKinematics& kinematics, 
 int ArmCheck::samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const Eigen::VectorXd* travel) const {
   const Eigen::VectorXd turned = (q1 - q0).cwiseAbs();
   double farthest = 0;
-  if (travel) farthest = turned.dot(*travel);
+  if (travel)
+    farthest = turned.dot(*travel);
   else
     for (const MovingLink& link : links_) farthest = std::max(farthest, turned.dot(link.travel));
   return std::max(1, static_cast<int>(std::ceil(farthest / step_)));

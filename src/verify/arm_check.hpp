@@ -7,10 +7,11 @@
 #include <set>
 #include <vector>
 
+#include "verify/solid.hpp"
+
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/interaction.hpp"
 #include "mamo/model/problem.hpp"
-#include "verify/solid.hpp"
 
 namespace mamo::verify {
 

@@ -7,9 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "verify/support.hpp"
+
 #include "mamo/model/interaction.hpp"
 #include "mamo/physics/world.hpp"
-#include "verify/support.hpp"
 
 namespace mamo::verify {
 
@@ -47,9 +48,9 @@ class Constraints {
   std::set<std::pair<ObjectId, ObjectId>> start_pairs_;
   std::set<ObjectId> cleared_;  // what the held object has been apart from since the grasp
   Support support_;
-  std::vector<Eigen::Vector3d> centre_;    // of mass in the object's frame, m
-  std::vector<Eigen::Vector3d> p_start_;   // of the centre of mass in world, m
-  std::vector<Eigen::Vector3d> up_;        // the object's own axis that is vertical at the start
+  std::vector<Eigen::Vector3d> centre_;   // of mass in the object's frame, m
+  std::vector<Eigen::Vector3d> p_start_;  // of the centre of mass in world, m
+  std::vector<Eigen::Vector3d> up_;       // the object's own axis that is vertical at the start
 };
 
 }  // namespace mamo::verify

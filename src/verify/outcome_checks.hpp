@@ -5,9 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "verify/timeline.hpp"
+
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/planner.hpp"
-#include "verify/timeline.hpp"
 
 namespace mamo::verify {
 

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "mamo/physics/world.hpp"
 #include "verify/constraints.hpp"
 #include "verify/interaction_log.hpp"
 #include "verify/plan_checks.hpp"
+
+#include "mamo/physics/world.hpp"
 
 namespace mamo::verify {
 namespace {

@@ -7,19 +7,20 @@
 #include <optional>
 #include <vector>
 
+#include "verify/arm_check.hpp"
+#include "verify/timeline.hpp"
+
 #include "mamo/common/stop.hpp"
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/planner.hpp"
-#include "verify/arm_check.hpp"
-#include "verify/timeline.hpp"
 
 namespace mamo::verify {
 
 struct ReplayOutcome {
   bool stopped = false;
-  std::optional<Violation> violation;  // the first one; time from the plan's start
-  std::string detail;                  // what its numbers do not say
-  int segment = 0;                     // where the violation happened
+  std::optional<Violation> violation;     // the first one; time from the plan's start
+  std::string detail;                     // what its numbers do not say
+  int segment = 0;                        // where the violation happened
   std::vector<Interaction> interactions;  // up to the violation, sorted by (first time, a, b)
   /// Poses at each segment's end as far as the replay came; after settling for the last one.
   std::vector<std::map<ObjectId, Eigen::Isometry3d>> objects_after;

@@ -49,9 +49,8 @@ struct Solid::Impl {
 };
 
 Solid::Solid(const PlacedShape& placed, double inflation)
-    : impl_(new Impl{placed.X_BS,
-                     fcl::CollisionObjectd(std::visit([&](const auto& s) { return geometry_of(s, inflation); },
-                                                      placed.shape))}) {
+    : impl_(new Impl{placed.X_BS, fcl::CollisionObjectd(std::visit(
+                                      [&](const auto& s) { return geometry_of(s, inflation); }, placed.shape))}) {
   place(Eigen::Isometry3d::Identity());
 }
 Solid::~Solid() = default;

@@ -10,9 +10,9 @@
 namespace mamo::verify {
 namespace {
 
-constexpr double kTouching = 0.001;   // m: bodies closer than this at the start touch
-constexpr double kSunk = 0.001;       // m: what contact solving lets a body sink in without having left
-constexpr int kRimPoints = 96;        // of a circle seen from above; misses 0.05 % of the radius
+constexpr double kTouching = 0.001;  // m: bodies closer than this at the start touch
+constexpr double kSunk = 0.001;      // m: what contact solving lets a body sink in without having left
+constexpr int kRimPoints = 96;       // of a circle seen from above; misses 0.05 % of the radius
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <set>
 #include <utility>
 #include <vector>
@@ -23,8 +24,7 @@ class Support {
 
   /// Metres the centre of mass is below or beside what may carry it; 0 while it is supported. X_WO: poses of all
   /// objects (of those it stood on, at least).
-  double left_by(ObjectId id, const Eigen::Vector3d& centre_of_mass,
-                 const std::vector<Eigen::Isometry3d>& X_WO) const;
+  double left_by(ObjectId id, const Eigen::Vector3d& centre_of_mass, const std::vector<Eigen::Isometry3d>& X_WO) const;
 
   /// Bodies the object stood on at the start.
   const std::vector<ObjectId>& stood_on(ObjectId id) const { return start_[id.index()].bodies; }
@@ -43,7 +43,7 @@ class Support {
   static double outside(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& point);
 
   const Scene& scene_;
-  std::vector<Start> start_;           // per object
+  std::vector<Start> start_;                      // per object
   std::vector<std::vector<Footprint>> fixtures_;  // per object; empty unless it is a fixture
 };
 

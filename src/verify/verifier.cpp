@@ -59,8 +59,7 @@ Verdict Verifier::judge(const Problem& problem, const Plan& plan, StopSource& st
     return verdict;
   }
   verdict.interactions = std::move(outcome.interactions);
-  verdict.findings =
-      check_objects(problem, plan, line, outcome.objects_after, options_.object_tolerance);
+  verdict.findings = check_objects(problem, plan, line, outcome.objects_after, options_.object_tolerance);
   if (outcome.violation)
     verdict.findings.push_back(make_finding(problem.scene, plan, outcome.segment, *outcome.violation, outcome.detail));
   else if (arm_hit)

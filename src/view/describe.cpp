@@ -36,30 +36,42 @@ std::string pose(const Eigen::Isometry3d& X) {
 
 std::string type_name(JointType type) {
   switch (type) {
-    case JointType::fixed: return "fixed";
-    case JointType::revolute: return "revolute";
-    case JointType::continuous: return "continuous";
-    case JointType::prismatic: return "prismatic";
+    case JointType::fixed:
+      return "fixed";
+    case JointType::revolute:
+      return "revolute";
+    case JointType::continuous:
+      return "continuous";
+    case JointType::prismatic:
+      return "prismatic";
   }
   return "unknown";
 }
 
 std::string kind_name(ObjectKind kind) {
   switch (kind) {
-    case ObjectKind::fixture: return "fixture";
-    case ObjectKind::immovable: return "immovable";
-    case ObjectKind::movable: return "movable";
+    case ObjectKind::fixture:
+      return "fixture";
+    case ObjectKind::immovable:
+      return "immovable";
+    case ObjectKind::movable:
+      return "movable";
   }
   return "unknown";
 }
 
 std::string touch_name(Touch touch) {
   switch (touch) {
-    case Touch::allowed: return "allowed";
-    case Touch::robot: return "robot";
-    case Touch::objects: return "objects";
-    case Touch::forbidden: return "forbidden";
-    case Touch::support: return "support";
+    case Touch::allowed:
+      return "allowed";
+    case Touch::robot:
+      return "robot";
+    case Touch::objects:
+      return "objects";
+    case Touch::forbidden:
+      return "forbidden";
+    case Touch::support:
+      return "support";
   }
   return "unknown";
 }
@@ -185,6 +197,7 @@ std::string describe(const Plan& plan, const Problem& problem) {
   std::size_t points = 0;
   std::vector<std::vector<std::string>> rows = {{"segment", "kind", "object", "points", "duration", "joint path"}};
   std::map<ObjectId, Eigen::Isometry3d> final_poses;
+  const auto known = [&](ObjectId id) { return id.valid() && id.index() < problem.scene.size(); };
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     const Segment& segment = plan.segments[s];
     double length = 0;
@@ -193,10 +206,11 @@ std::string describe(const Plan& plan, const Problem& problem) {
     duration += segment.motion.duration();
     points += segment.motion.t.size();
     rows.push_back({std::to_string(s), std::string(to_string(segment.kind)),
-                    segment.object.valid() ? problem.scene[segment.object].id : "-",
+                    known(segment.object) ? problem.scene[segment.object].id : "-",
                     std::to_string(segment.motion.t.size()), fixed3(segment.motion.duration()) + " s",
                     fixed3(length) + " rad"});
-    for (const auto& [id, X] : segment.objects_after) final_poses[id] = X;
+    for (const auto& [id, X] : segment.objects_after)
+      if (known(id)) final_poses[id] = X;
   }
   std::string out = "plan: " + std::to_string(plan.segments.size()) + " segments, " + std::to_string(points) +
                     " points, " + fixed3(duration) + " s\n" + table(rows);

@@ -14,8 +14,8 @@ Eigen::Vector2d text_size(const std::string& text, double font_px) {
 bool LabelPlacer::free(const Eigen::AlignedBox2d& box) const {
   if (!canvas_.contains(box)) return false;
   return std::none_of(taken_.begin(), taken_.end(), [&](const auto& other) {
-    return !(box.max().x() <= other.min().x() || other.max().x() <= box.min().x() ||
-             box.max().y() <= other.min().y() || other.max().y() <= box.min().y());
+    return !(box.max().x() <= other.min().x() || other.max().x() <= box.min().x() || box.max().y() <= other.min().y() ||
+             other.max().y() <= box.min().y());
   });
 }
 

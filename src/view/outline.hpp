@@ -1,8 +1,9 @@
 // What a shape covers seen from above.
 #pragma once
 
-#include "mamo/model/shape.hpp"
 #include "view/svg.hpp"
+
+#include "mamo/model/shape.hpp"
 
 namespace mamo::view {
 

@@ -6,21 +6,22 @@
 #include <optional>
 #include <set>
 
-#include "mamo/kinematics/forward_kinematics.hpp"
 #include "view/label_placer.hpp"
 #include "view/outline.hpp"
 #include "view/plan_path.hpp"
 #include "view/svg.hpp"
 #include "view/top_view_style.hpp"
 
+#include "mamo/kinematics/forward_kinematics.hpp"
+
 namespace mamo::view {
 namespace {
 
-constexpr double kMoved = 0.005;    // m: an object that went further is drawn as moved
-constexpr double kTurned = 0.05;    // rad: or turned further
-constexpr double kLegendPx = 210;   // width of the legend
-constexpr double kHeadPx = 58;      // height of the title
-constexpr double kMarginM = 0.06;   // around what is drawn
+constexpr double kMoved = 0.005;         // m: an object that went further is drawn as moved
+constexpr double kTurned = 0.05;         // rad: or turned further
+constexpr double kLegendPx = 210;        // width of the legend
+constexpr double kHeadPx = 58;           // height of the title
+constexpr double kMarginM = 0.06;        // around what is drawn
 constexpr double kLargestFixture = 3.0;  // m: a floor does not decide the scale
 
 struct Drawn {  // an object, with everything the picture needs of it
@@ -362,8 +363,10 @@ class TopView {
     for (double candidate : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0})
       if (candidate * scale_ <= kLegendPx - 60) length = candidate;
     const double w = length * scale_;
-    out += path_element("bar", {at + Eigen::Vector2d(0, -5), at + Eigen::Vector2d(0, 0), at + Eigen::Vector2d(w, 0),
-                                at + Eigen::Vector2d(w, -5)}, false);
+    out += path_element("bar",
+                        {at + Eigen::Vector2d(0, -5), at + Eigen::Vector2d(0, 0), at + Eigen::Vector2d(w, 0),
+                         at + Eigen::Vector2d(w, -5)},
+                        false);
     const std::string text = length < 1 ? px(length * 100) + " cm" : px(length) + " m";
     out += text_element("key", at + Eigen::Vector2d(w / 2, 16), text, "middle");
   }
@@ -386,7 +389,7 @@ class TopView {
   std::map<ObjectId, Eigen::Isometry3d> final_;
   std::vector<Drawn> drawn_;
   std::vector<std::pair<SegmentKind, Points2>> tip_;
-  double scale_ = 1;  // px per m
+  double scale_ = 1;           // px per m
   Eigen::AlignedBox2d field_;  // px, where the world is drawn
   Eigen::Vector2d middle_{0, 0}, size_{0, 0};
 };

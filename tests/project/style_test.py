@@ -19,7 +19,7 @@ BANNED = [
                 r"|\bgettimeofday\b|\btime\s*\(\s*(?:NULL|nullptr|0)\s*\)"),
      "no clock decides a result: only common/stop reads one",
      {"src/common/common.cpp": "StopSource, the one deadline",
-      "src/common/": "time stamps that are only reported (wall time, CPU time) live beside StopSource",
+      "include/mamo/common/stopwatch.hpp": "wall times that are reported and never read by an algorithm",
       "src/physics/evaluation.cpp": "Evaluator::simulation_s, reported and never read by an algorithm",
       "src/search/toy_domain.cpp": "scripted delays: it waits, and reads no result off the clock",
       "src/experiments/": "when a run started, in its record",
@@ -51,8 +51,6 @@ def code_findings(name, text):
             subject = line if "TODO" in pattern.pattern else without_comment(line)
             if pattern.search(subject) and not any(name.startswith(prefix) for prefix in allowed):
                 found.append(f"{name}:{number}: {reason}: {line.strip()}")
-        if len(line) > 120:
-            found.append(f"{name}:{number}: {len(line)} characters, at most 120")
         if "\t" in line or line != line.rstrip():
             found.append(f"{name}:{number}: tab or trailing blank")
     return found
@@ -88,7 +86,7 @@ class Style(unittest.TestCase):
 class Planted(unittest.TestCase):
     def test_each_ban_is_noticed(self):
         for line in ("std::random_device d;", "int x = rand();", "auto t = std::chrono::steady_clock::now();",
-                     "thread_local int x;", "int x;  // TODO later", "int x; ", "x" * 121):
+                     "thread_local int x;", "int x;  // TODO later", "int x; "):
             self.assertEqual(len(code_findings("src/model/a.cpp", line)), 1, line)
 
     def test_words_that_only_look_alike_pass(self):

@@ -3,8 +3,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "mamo/view/describe.hpp"
 #include "support/fixtures.hpp"
+
+#include "mamo/view/describe.hpp"
 
 namespace mamo::view {
 namespace {
@@ -73,7 +74,7 @@ TEST(TopView, APlanShowsItsSegmentsTheArmAtItsEndAndWhatItMoves) {
   const std::string svg = top_view_svg(problem, &plan);
   for (const char* kind : {"approach", "push", "retreat"})
     EXPECT_EQ(count(svg, std::string("class=\"tip ") + kind + "\""), 2u) << kind;  // the path and the legend
-  EXPECT_EQ(count(svg, "class=\"was\""), 2u);    // the object and the legend
+  EXPECT_EQ(count(svg, "class=\"was\""), 2u);                                      // the object and the legend
   EXPECT_EQ(count(svg, "class=\"moved\""), 2u);
   EXPECT_EQ(count(svg, "class=\"arrow\""), 1u);
   EXPECT_GE(count(svg, "class=\"arm1\""), 2u);
@@ -111,9 +112,17 @@ TEST(Describe, AProblemNamesRobotJointsObjectsTaskAndProfile) {
   Problem problem = shelf_problem();
   problem.warnings = {"a visual mesh is missing"};
   const std::string text = describe(problem);
-  for (const char* piece : {"pr2_like", "7 joints plan", "shoulder_pan", "continuous", "tip tool", "10 pairs", "object_0",
-                            "support", "movable", "task reach", "contact-only", "warning: a visual mesh is missing"})
+  for (const char* piece :
+       {"pr2_like", "7 joints plan", "shoulder_pan", "continuous", "tip tool", "10 pairs", "object_0", "support",
+        "movable", "task reach", "contact-only", "warning: a visual mesh is missing"})
     EXPECT_NE(text.find(piece), std::string::npos) << piece << "\n" << text;
+}
+
+TEST(Describe, APlanForAnotherSceneLeavesUnknownObjectsOut) {
+  Problem problem = shelf_problem();
+  const Plan plan = two_segments(problem);
+  problem.scene = {};
+  EXPECT_NE(describe(plan, problem).find("3 segments"), std::string::npos);
 }
 
 TEST(Describe, APlanTellsItsSegmentsAndWhatMoves) {

@@ -11,6 +11,7 @@ namespace mamo::view {
 /// Several lines, each ended by a newline. Angles in radians, lengths in metres.
 std::string describe(const Robot& robot);
 std::string describe(const Problem& problem);
+/// Objects that the problem does not have are left out.
 std::string describe(const Plan& plan, const Problem& problem);
 
 }  // namespace mamo::view

@@ -14,9 +14,9 @@ struct TopViewOptions {
 };
 
 /// x to the right, y up, in metres of the world. Shows fixtures (those above the objects as outlines), objects by
-/// kind, the arm at the start and, with a plan, at its end; the tip's path coloured by the kind of segment, and for each
-/// object that the plan moves where it was (dashed) and where it goes. The plan must fit the problem (joint names of
-/// the group); segments that do not are left out. A pure function of its arguments.
+/// kind, the arm at the start and, with a plan, at its end; the tip's path coloured by the kind of segment, and for
+/// each object that the plan moves where it was (dashed) and where it goes. The plan must fit the problem (joint names
+/// of the group); segments that do not are left out. A pure function of its arguments.
 std::string top_view_svg(const Problem& problem, const Plan* plan = nullptr, const TopViewOptions& options = {});
 
 }  // namespace mamo::view
