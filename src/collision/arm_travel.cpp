@@ -4,7 +4,7 @@ namespace mamo::collision {
 namespace {
 
 /// Distance of a point from a line through o along the unit vector a.
-double distance_to_line(const Eigen::Vector3d& p, const Eigen::Vector3d& o, const Eigen::Vector3d& a) {
+inline double distance_to_line(const Eigen::Vector3d& p, const Eigen::Vector3d& o, const Eigen::Vector3d& a) {
   return a.cross(p - o).norm();
 }
 
@@ -45,9 +45,8 @@ ArmTravel::ArmTravel(const Robot& robot) : robot_(robot) {
     if (driver < 0 || j.type == JointType::fixed) continue;
     actuator_of_link_[j.child.index()] = static_cast<int>(actuators_.size());
     actuators_.push_back({j.child.value, driver, std::abs(j.mimic ? j.mimic->multiplier : 1.0),
-                          j.type == JointType::prismatic, j.axis});
+                          j.axis});
   }
-  rates_.resize(actuators_.size());
 }
 
 int ArmTravel::add_part(LinkId link, const Solid& solid, const Eigen::Isometry3d& X_LS) {
@@ -65,7 +64,8 @@ int ArmTravel::add_part(LinkId link, const Solid& solid, const Eigen::Isometry3d
     const int actuator = actuator_of_link_[link.index()];
     if (actuator >= 0) {
       const double known = part.levers.empty() ? lever_of(solid, X_PS, Eigen::Vector3d::Zero(), j.axis) : reach;
-      part.levers.push_back({actuator, j.type == JointType::prismatic ? 1.0 : std::min(reach, known)});
+      const bool slides = j.type == JointType::prismatic;
+      part.levers.push_back({actuator, slides ? 1.0 : std::min(reach, known), slides || part.levers.empty()});
       if (j.type == JointType::prismatic) reach += largest_travel(model, j);
       reach += j.X_PJ.translation().norm();
     } else {
@@ -101,26 +101,27 @@ int ArmTravel::add_pair(int a, int b) {
 }
 
 void ArmTravel::update(const std::vector<Eigen::Isometry3d>& X_WL, const Eigen::VectorXd& dq, double half_stretch) {
-  for (std::size_t k = 0; k < actuators_.size(); ++k)
-    rates_[k] = actuators_[k].multiplier * std::abs(dq[actuators_[k].group_index]);
+  for (Actuator& m : actuators_) {
+    m.rate = m.multiplier * std::abs(dq[m.group_index]);
+    const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(m.link)];
+    m.axis_W.noalias() = X.linear() * m.axis;
+    m.p_W = X.translation();
+  }
   for (Part& part : parts_) {
-    const Eigen::Vector3d centre = X_WL[static_cast<std::size_t>(part.link)] * part.p_L;
+    const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(part.link)];
+    const Eigen::Vector3d centre = X.linear() * part.p_L + X.translation();
     double drift = 0;  // how much the joints passed so far can lengthen a lever within the stretch
     part.speed = 0;
     for (Lever& lever : part.levers) {
-      const double rate = rates_[static_cast<std::size_t>(lever.actuator)];
+      const Actuator& m = actuators_[static_cast<std::size_t>(lever.actuator)];
       lever.speed = 0;
-      if (rate == 0) continue;
-      const Actuator& actuator = actuators_[static_cast<std::size_t>(lever.actuator)];
+      if (m.rate == 0) continue;
       double arm = lever.largest;
-      if (!actuator.prismatic) {
-        const Eigen::Isometry3d& X = X_WL[static_cast<std::size_t>(actuator.link)];
-        const Eigen::Vector3d axis = X.linear() * actuator.axis;
-        arm = std::min(arm, distance_to_line(centre, X.translation(), axis) + part.radius + drift);
-      }
-      lever.speed = rate * arm;
+      if (!lever.constant)
+        arm = std::min(arm, distance_to_line(centre, m.p_W, m.axis_W) + part.radius + drift);
+      lever.speed = m.rate * arm;
       part.speed += lever.speed;
-      drift += rate * lever.largest * half_stretch;
+      drift += m.rate * lever.largest * half_stretch;
     }
   }
 }

@@ -40,13 +40,15 @@ class ArmTravel {
   struct Actuator {  // a joint driven by the group
     int link;        // its child
     int group_index;
-    double multiplier;  // absolute
-    bool prismatic;
-    Eigen::Vector3d axis;
+    double multiplier;     // absolute
+    Eigen::Vector3d axis;  // in the link
+    double rate = 0;       // |d value / ds|, by update(); so are axis and a point of it in the world
+    Eigen::Vector3d axis_W = Eigen::Vector3d::Zero(), p_W = Eigen::Vector3d::Zero();
   };
   struct Lever {  // of a part about an actuator above it
     int actuator;
     double largest;    // in any configuration (m, 1 for prismatic)
+    bool constant;     // the same in all configurations
     double speed = 0;  // rate times the lever, by update()
   };
   struct Part {
@@ -66,7 +68,6 @@ class ArmTravel {
   std::vector<int> actuator_of_link_;  // -1: the link's joint is not driven
   std::vector<Part> parts_;
   std::vector<Pair> pairs_;
-  std::vector<double> rates_;  // scratch: |dq/ds| of each actuator
 };
 
 }  // namespace mamo::collision

@@ -247,6 +247,10 @@ void World::contacts(std::vector<Contact>& out) const {
   out.erase(std::unique(out.begin(), out.end(), same), out.end());
 }
 
+void World::wake(ObjectId id) {
+  if (impl_->of(id).role() == Role::free) impl_->of(id).wake();
+}
+
 void World::attach(ObjectId id, LinkId link) {
   Impl& w = *impl_;
   const Eigen::Isometry3d X_WO = this->X_WO(id);

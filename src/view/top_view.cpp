@@ -107,6 +107,8 @@ class TopView {
     }
   }
 
+  Eigen::Vector2d tip_at(const Eigen::VectorXd& q) const { return kinematics_.tip_pose(q).translation().head<2>(); }
+
   void collect_tip_path() {
     for (const SegmentPath& path : paths_) {
       Points2 points;
@@ -116,7 +118,7 @@ class TopView {
         // Straight in joints is curved in the plane: a point at least every 0.05 rad.
         const int pieces = std::max(1, static_cast<int>(std::ceil(step.cwiseAbs().maxCoeff() / 0.05)));
         for (int i = k > 0 ? 1 : pieces; i <= pieces; ++i)
-          points.push_back(kinematics_.tip_pose(from + step * (static_cast<double>(i) / pieces)).translation().head<2>());
+          points.push_back(tip_at(from + step * (static_cast<double>(i) / pieces)));
       }
       tip_.emplace_back(path.kind, std::move(points));
     }
@@ -202,7 +204,8 @@ class TopView {
     double highest = -std::numeric_limits<double>::infinity();
     for (const Drawn& d : drawn_) highest = std::max(highest, problem_.scene[d.id].X_WO.translation().z());
     double bottom = std::numeric_limits<double>::infinity();
-    for (const PlacedShape& s : fixture.shapes) bottom = std::min(bottom, bounds(s.shape, fixture.X_WO * s.X_BS).min().z());
+    for (const PlacedShape& s : fixture.shapes)
+      bottom = std::min(bottom, bounds(s.shape, fixture.X_WO * s.X_BS).min().z());
     return bottom > highest;
   }
 
@@ -241,16 +244,16 @@ class TopView {
     for (const auto& [kind, points] : tip_) out += path_element("halo", px_of(points), false);
     for (const auto& [kind, points] : tip_)
       out += path_element("tip " + std::string(to_string(kind)), px_of(points), false, std::string(to_string(kind)));
-    const Eigen::Vector2d start = px_of(Eigen::Vector2d(kinematics_.tip_pose(problem_.q_start).translation().head<2>()));
+    const Eigen::Vector2d start = px_of(tip_at(problem_.q_start));
     out += "<circle class=\"dot\" cx=\"" + px(start.x()) + "\" cy=\"" + px(start.y()) + "\" r=\"4\"/>\n";
   }
 
   /// Where the tip shall go: a cross in a ring, with a tick along the tip's x axis.
   void goal(std::string& out) const {
     Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
-    if (const ReachPose* reach = std::get_if<ReachPose>(&problem_.task)) X_WT = reach->X_WT;
-    else if (const Retrieve* retrieve = std::get_if<Retrieve>(&problem_.task)) X_WT = retrieve->X_WT_pregrasp;
-    else if (const ReachJoints* joints = std::get_if<ReachJoints>(&problem_.task)) X_WT = kinematics_.tip_pose(joints->q);
+    if (const auto* reach = std::get_if<ReachPose>(&problem_.task)) X_WT = reach->X_WT;
+    if (const auto* retrieve = std::get_if<Retrieve>(&problem_.task)) X_WT = retrieve->X_WT_pregrasp;
+    if (const auto* joints = std::get_if<ReachJoints>(&problem_.task)) X_WT = kinematics_.tip_pose(joints->q);
     const Eigen::Vector2d c = px_of(Eigen::Vector2d(X_WT.translation().head<2>()));
     goal_mark(out, c);
     const Eigen::Vector2d x = X_WT.linear().col(0).head<2>();
@@ -261,7 +264,8 @@ class TopView {
   }
 
   static void goal_mark(std::string& out, const Eigen::Vector2d& c) {
-    out += "<circle class=\"goal\" cx=\"" + px(c.x()) + "\" cy=\"" + px(c.y()) + "\" r=\"7\"><title>goal</title></circle>\n";
+    out += "<circle class=\"goal\" cx=\"" + px(c.x()) + "\" cy=\"" + px(c.y()) +
+           "\" r=\"7\"><title>goal</title></circle>\n";
     out += path_element("goal", {c + Eigen::Vector2d(-3, -3), c + Eigen::Vector2d(3, 3)}, false);
     out += path_element("goal", {c + Eigen::Vector2d(-3, 3), c + Eigen::Vector2d(3, -3)}, false);
   }

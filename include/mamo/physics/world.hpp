@@ -58,6 +58,8 @@ class World {
 
   /// From now on until reset() there is no contact between the robot and this object (a gripper closing on it).
   void ignore_robot(ObjectId id);
+  /// As if something had come near: the object feels gravity and contacts until it has rested for kSleepTime.
+  void wake(ObjectId id);
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
 
