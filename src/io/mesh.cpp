@@ -8,7 +8,8 @@
 #include <filesystem>
 
 #include "io/convex_hull.hpp"
-#include "io/read_bytes.hpp"
+
+#include "mamo/io/load.hpp"
 
 namespace mamo::io {
 namespace {
@@ -57,7 +58,7 @@ Result<LoadedHull> load_hull(const std::string& path, const Eigen::Vector3d& sca
   const std::string extension = lower_extension(path);
   if (extension != "stl" && extension != "obj" && extension != "dae")
     return Error{path + ": unsupported mesh format '." + extension + "', expected .stl, .obj or .dae"};
-  Result<std::string> bytes = read_bytes(path, kLargestMesh);
+  Result<std::string> bytes = read_file(path, kLargestMesh);
   if (!bytes) return bytes.error();
   if (bytes->empty()) return Error{path + ": empty mesh file"};
 

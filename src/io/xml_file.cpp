@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "io/read_bytes.hpp"
+#include "mamo/io/load.hpp"
 
 namespace mamo::io {
 namespace {
@@ -51,7 +51,7 @@ Error XmlFile::error_at(const tinyxml2::XMLElement* element, const std::string& 
 }
 
 Result<XmlFile> load_xml(const std::string& path, const std::string& root_name, std::size_t max_bytes) {
-  Result<std::string> text = read_bytes(path, max_bytes);
+  Result<std::string> text = read_file(path, max_bytes);
   if (!text) return text.error();
   if (text->empty()) return Error{path + ": empty file, expected XML with <" + root_name + ">"};
   if (!looks_like_text(*text)) return Error{path + ": binary file, expected XML with <" + root_name + ">"};
