@@ -6,11 +6,12 @@
 #include <cstdio>
 #include <ctime>
 
+#include "support/brute_force.hpp"
+#include "support/robots.hpp"
+
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/common/hash.hpp"
 #include "mamo/kinematics/inverse_kinematics.hpp"
-#include "support/brute_force.hpp"
-#include "support/robots.hpp"
 
 namespace {
 
@@ -112,7 +113,8 @@ struct Bench {
       const auto q = inverse.solve(X, fixtures::random_configuration(robot, random), k);
       if (q) near_mix.push_back(edge_from(*q, random));
     }
-    while (uniform_mix.size() < 2000) uniform_mix.push_back(edge_from(fixtures::random_configuration(robot, random), random));
+    while (uniform_mix.size() < 2000)
+      uniform_mix.push_back(edge_from(fixtures::random_configuration(robot, random), random));
     for (const Edge& e : near_mix)
       if (free(e)) near_free.push_back(e);
     for (const Edge& e : uniform_mix)
@@ -168,8 +170,12 @@ bool compare(const char* name, const std::vector<Edge>& edges, HashStream& hash)
   }
   std::vector<double> ours, theirs, ratios;
   for (int round = 0; round < 15; ++round) {
-    ours.push_back(seconds([&] { for (const Edge& e : edges) benchmark::DoNotOptimize(b.free(e)); }));
-    theirs.push_back(seconds([&] { for (const Edge& e : edges) benchmark::DoNotOptimize(b.loop.free(e)); }));
+    ours.push_back(seconds([&] {
+      for (const Edge& e : edges) benchmark::DoNotOptimize(b.free(e));
+    }));
+    theirs.push_back(seconds([&] {
+      for (const Edge& e : edges) benchmark::DoNotOptimize(b.loop.free(e));
+    }));
     ratios.push_back(theirs.back() / ours.back());
   }
   for (auto* v : {&ours, &theirs, &ratios}) std::sort(v->begin(), v->end());
@@ -212,7 +218,8 @@ BENCHMARK(set_state_of_all_objects);
 int main(int argc, char** argv) {
   Bench& b = bench();
   HashStream hash;
-  const bool right = compare("near the shelf, mix", b.near_mix, hash) && compare("near the shelf, free", b.near_free, hash) &&
+  const bool right = compare("near the shelf, mix", b.near_mix, hash) &&
+                     compare("near the shelf, free", b.near_free, hash) &&
                      compare("uniform, mix", b.uniform_mix, hash) && compare("uniform, free", b.uniform_free, hash);
   if (!right) {
     std::fprintf(stderr, "the checker and the box loop disagree: nothing timed\n");

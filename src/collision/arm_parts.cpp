@@ -69,7 +69,8 @@ void ArmParts::hold(const Object& object, LinkId link, const Eigen::Isometry3d& 
     parts_.push_back(std::move(part));
     moving_.push_back(index);
     for (std::size_t k = 0; k < own_parts_; ++k)
-      if (partner[parts_[k].link.index()] && !rigid_with(parts_[k].link, link)) add_self_pair(static_cast<int>(k), index);
+      if (partner[parts_[k].link.index()] && !rigid_with(parts_[k].link, link))
+        add_self_pair(static_cast<int>(k), index);
   }
   moving_.insert(moving_.end(), own_moving_.begin(), own_moving_.end());
 }

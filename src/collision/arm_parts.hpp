@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "arm_travel.hpp"
+
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/scene.hpp"
 

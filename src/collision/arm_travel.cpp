@@ -44,8 +44,7 @@ ArmTravel::ArmTravel(const Robot& robot) : robot_(robot) {
     const int driver = group_index[j.mimic ? j.mimic->joint.index() : i];
     if (driver < 0 || j.type == JointType::fixed) continue;
     actuator_of_link_[j.child.index()] = static_cast<int>(actuators_.size());
-    actuators_.push_back({j.child.value, driver, std::abs(j.mimic ? j.mimic->multiplier : 1.0),
-                          j.axis});
+    actuators_.push_back({j.child.value, driver, std::abs(j.mimic ? j.mimic->multiplier : 1.0), j.axis});
   }
 }
 
@@ -117,8 +116,7 @@ void ArmTravel::update(const std::vector<Eigen::Isometry3d>& X_WL, const Eigen::
       lever.speed = 0;
       if (m.rate == 0) continue;
       double arm = lever.largest;
-      if (!lever.constant)
-        arm = std::min(arm, distance_to_line(centre, m.p_W, m.axis_W) + part.radius + drift);
+      if (!lever.constant) arm = std::min(arm, distance_to_line(centre, m.p_W, m.axis_W) + part.radius + drift);
       lever.speed = m.rate * arm;
       part.speed += lever.speed;
       drift += m.rate * lever.largest * half_stretch;

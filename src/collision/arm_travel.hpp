@@ -2,17 +2,19 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <vector>
 
-#include "mamo/model/robot.hpp"
 #include "solid.hpp"
+
+#include "mamo/model/robot.hpp"
 
 namespace mamo::collision {
 
-/// Speeds are in metres per unit of the edge parameter s (0 at q0, 1 at q1). A point of a part moves at most at the sum
-/// over the moving joints above it of |dq/ds| times its distance from that joint's axis. The distance is taken at the
-/// middle of a stretch of the edge, plus what the joints in between can add to it within the stretch, and never more than
-/// the sum of offsets along the chain.
+/// Speeds are in metres per unit of the edge parameter s (0 at q0, 1 at q1). A point of a part moves at most at the
+/// sum over the moving joints above it of |dq/ds| times its distance from that joint's axis. The distance is taken at
+/// the middle of a stretch of the edge, plus what the joints in between can add to it within the stretch, and never
+/// more than the sum of offsets along the chain.
 class ArmTravel {
  public:
   explicit ArmTravel(const Robot& robot);

@@ -7,7 +7,8 @@
 namespace mamo {
 
 struct CollisionChecker::Impl {
-  Impl(std::shared_ptr<const ForwardKinematics> kinematics_in, const Scene& scene_in, const CollisionOptions& options_in)
+  Impl(std::shared_ptr<const ForwardKinematics> kinematics_in, const Scene& scene_in,
+       const CollisionOptions& options_in)
       : kinematics(std::move(kinematics_in)),
         scene(scene_in),
         options(options_in),
@@ -32,7 +33,8 @@ CollisionChecker::~CollisionChecker() = default;
 
 void CollisionChecker::set_state(const WorldState& state) { impl_->obstacles.set_state(state); }
 
-void CollisionChecker::check(const Eigen::VectorXd& q, const ObjectSet& against, bool stop_at_first, CollisionReport& out) {
+void CollisionChecker::check(const Eigen::VectorXd& q, const ObjectSet& against, bool stop_at_first,
+                             CollisionReport& out) {
   impl_->edges.configuration(q, against, impl_->held, stop_at_first, out);
 }
 

@@ -178,8 +178,8 @@ void EdgeCheck::gather(Node& root, double reach) {
   root.pairs = {pairs_.size(), pairs_.size()};
   for (int part : arm_.moving()) {
     const Placed& X = placed(part);
-    const Eigen::Vector3d half = half_box(arm_.parts()[static_cast<std::size_t>(part)].solid, X.R).array() +
-                                 speed(root.stretch, part) * reach;
+    const Eigen::Vector3d half =
+        half_box(arm_.parts()[static_cast<std::size_t>(part)].solid, X.R).array() + speed(root.stretch, part) * reach;
     for (std::int32_t k : active_) {
       const ObstaclePart& obstacle = obstacles_.parts()[static_cast<std::size_t>(k)];
       if (boxes_meet(X.p, half, obstacle.X_WP.p, obstacle.half_box_padded)) pairs_.push_back({part, k});
@@ -199,12 +199,15 @@ bool EdgeCheck::test_obstacles(Node& node, double s, double s_low, double reach,
     const ObstaclePart& obstacle = obstacles_.parts()[static_cast<std::size_t>(pair.obstacle)];
     // A touched object is of interest only where the edge might have touched something earlier.
     if (touched_[obstacle.object.index()] && s_low >= out.first_touch) continue;
-    const Relation relation = relate(arm_.parts()[static_cast<std::size_t>(pair.part)].solid, placed(pair.part),
-                                     obstacle.padded, obstacle.X_WP, speed(node.stretch, pair.part) * reach);
+    const bool forbidden = role_[static_cast<std::size_t>(pair.obstacle)] == forbidden_role;
+    const Relation relation =
+        relate(arm_.parts()[static_cast<std::size_t>(pair.part)].solid, placed(pair.part),
+               forbidden ? obstacle.plain : obstacle.padded, forbidden ? obstacle.X_WS : obstacle.X_WP,
+               speed(node.stretch, pair.part) * reach);
     if (relation == Relation::apart) continue;
     pairs_.push_back(pair);
     if (relation != Relation::hit) continue;
-    if (role_[static_cast<std::size_t>(pair.obstacle)] == forbidden_role) {
+    if (forbidden) {
       out.touched = {obstacle.object};
       out.first_touch = CollisionReport{}.first_touch;
       return false;

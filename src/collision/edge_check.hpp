@@ -6,8 +6,9 @@
 
 #include "arm_parts.hpp"
 #include "edge_samples.hpp"
-#include "mamo/collision/collision_checker.hpp"
 #include "obstacles.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo::collision {
 
@@ -17,7 +18,8 @@ namespace mamo::collision {
 /// whole range. Most pairs are dropped at the root, and a range without pairs needs no pose at all.
 class EdgeCheck {
  public:
-  EdgeCheck(const ForwardKinematics& kinematics, ArmParts& arm, const Obstacles& obstacles, const CollisionOptions& options)
+  EdgeCheck(const ForwardKinematics& kinematics, ArmParts& arm, const Obstacles& obstacles,
+            const CollisionOptions& options)
       : kinematics_(kinematics), arm_(arm), obstacles_(obstacles), options_(options) {}
 
   void configuration(const Eigen::VectorXd& q, const ObjectSet& against, ObjectId held, bool stop_at_first,

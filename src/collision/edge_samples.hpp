@@ -13,9 +13,7 @@ struct Stretch {
   bool last = true;
 
   int samples() const { return intervals + (last ? 1 : 0); }
-  double at(int i) const {
-    return i == intervals ? end : begin + (end - begin) * (static_cast<double>(i) / intervals);
-  }
+  double at(int i) const { return i == intervals ? end : begin + (end - begin) * (static_cast<double>(i) / intervals); }
 };
 
 }  // namespace mamo::collision

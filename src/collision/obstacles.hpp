@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "solid.hpp"
+
 #include "mamo/model/scene.hpp"
 #include "mamo/model/world_state.hpp"
-#include "solid.hpp"
 
 namespace mamo::collision {
 

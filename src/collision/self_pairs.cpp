@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "arm_parts.hpp"
+
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/common/random.hpp"
 

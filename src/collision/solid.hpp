@@ -29,7 +29,8 @@ Solid make_solid(const Shape& shape, double padding, Eigen::Vector3d& centre);
 /// Half the width of the solid (of its box for a hull) along a unit vector of the world (m).
 inline double half_width(const Solid& s, const Eigen::Matrix3d& R, const Eigen::Vector3d& d) {
   switch (s.kind) {
-    case Solid::Kind::sphere: return s.half.x();
+    case Solid::Kind::sphere:
+      return s.half.x();
     case Solid::Kind::cylinder: {
       const double z = R.col(2).dot(d);
       return s.half.x() * std::sqrt(std::max(0.0, 1.0 - z * z)) + s.half.z() * std::abs(z);
@@ -43,12 +44,14 @@ inline double half_width(const Solid& s, const Eigen::Matrix3d& R, const Eigen::
 /// Half sizes of the axis-aligned world box around the solid (m).
 inline Eigen::Vector3d half_box(const Solid& s, const Eigen::Matrix3d& R) {
   switch (s.kind) {
-    case Solid::Kind::sphere: return s.half;
+    case Solid::Kind::sphere:
+      return s.half;
     case Solid::Kind::cylinder: {
       const Eigen::Array3d z = R.col(2).array();
       return (s.half.x() * (1.0 - z * z).max(0.0).sqrt() + s.half.z() * z.abs()).matrix();
     }
-    default: return R.cwiseAbs() * s.half;
+    default:
+      return R.cwiseAbs() * s.half;
   }
 }
 

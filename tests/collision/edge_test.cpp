@@ -1,9 +1,10 @@
 // Edges: how densely they are looked at, and that the answer is a function of the question.
 #include <thread>
 
-#include "mamo/collision/collision_checker.hpp"
 #include "support/brute_force.hpp"
 #include "support/robots.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo {
 namespace {
@@ -56,8 +57,10 @@ TEST(Edge, NoPointOfTheArmMovesFurtherThanTheStepBetweenSamples) {
         before = after;
         kinematics->link_poses((1.0 - s[i]) * e.q0 + s[i] * e.q1, after);
         double widest = 0;
-        for (const Point& p : points) widest = std::max(widest, (before[p.link] * p.p_L - after[p.link] * p.p_L).norm());
-        ASSERT_LE(widest, checker.options().edge_step + 1e-12) << robot.model->name << ", seed " << kSeed << ", edge " << k;
+        for (const Point& p : points)
+          widest = std::max(widest, (before[p.link] * p.p_L - after[p.link] * p.p_L).norm());
+        ASSERT_LE(widest, checker.options().edge_step + 1e-12)
+            << robot.model->name << ", seed " << kSeed << ", edge " << k;
         widest_of_all = std::max(widest_of_all, widest);
         length += widest;
       }
@@ -103,7 +106,8 @@ TEST(Edge, PaddingHoldsABandOfHalfAStepAroundEveryObject) {
       const double s = random.uniform();
       checker.check((1.0 - s) * e.q0 + s * e.q1, all, false, single);
       for (ObjectId id : single.touched) {
-        ASSERT_TRUE(std::binary_search(edge.touched.begin(), edge.touched.end(), id)) << "seed " << kSeed << ", edge " << k;
+        ASSERT_TRUE(std::binary_search(edge.touched.begin(), edge.touched.end(), id))
+            << "seed " << kSeed << ", edge " << k;
         ++touching;
       }
     }
@@ -134,7 +138,8 @@ Answer ask(CollisionChecker& checker, const Question& question, LinkId palm) {
   checker.set_state(question.state);
   if (question.hold) checker.attach(ObjectId{6}, palm, fixtures::at(0.2, 0, 0));
   Answer answer{};
-  answer.passes = checker.check_edge(question.edge.q0, question.edge.q1, question.forbidden, question.watched, answer.edge);
+  answer.passes =
+      checker.check_edge(question.edge.q0, question.edge.q1, question.forbidden, question.watched, answer.edge);
   checker.check(question.edge.q1, question.watched, false, answer.single);
   if (question.hold) checker.detach();
   return answer;
@@ -144,11 +149,12 @@ std::vector<Question> questions(const Robot& robot, const Scene& scene, int coun
   RandomStream random(kSeed, {4});
   std::vector<Question> out;
   for (int k = 0; k < count; ++k) {
-    Question q{random_edge(robot, random), WorldState::start_of(scene), ObjectSet(scene.size()), ObjectSet(scene.size()),
-               random.below(4) == 0};
+    Question q{random_edge(robot, random), WorldState::start_of(scene), ObjectSet(scene.size()),
+               ObjectSet(scene.size()), random.below(4) == 0};
     for (std::size_t i = 0; i < scene.size(); ++i) {
       (random.below(6) == 0 ? q.forbidden : q.watched).insert(ObjectId(i));
-      if (!scene.objects[i].fixture() && random.below(3) == 0) q.state.poses[i].p[0] += 1000 * static_cast<int>(random.below(100));
+      if (!scene.objects[i].fixture() && random.below(3) == 0)
+        q.state.poses[i].p[0] += 1000 * static_cast<int>(random.below(100));
     }
     out.push_back(q);
   }
@@ -200,7 +206,7 @@ TEST(Edge, AHeldObjectIsRobotAndNoLongerObstacle) {
   const Robot robot = fixtures::pr2_like_arm();
   Scene scene = fixtures::cluttered_shelf(10, 5, 3);
   scene.objects[6].shapes.push_back({Sphere{0.05}, fixtures::at(0, 0, 0.12)});  // a body of two shapes
-  const CollisionOptions options;
+  const CollisionOptions options{0.01, 0.0055};
   CollisionChecker checker(std::make_shared<ForwardKinematics>(robot), scene, options);
   fixtures::BruteForce plain(robot, scene, 0), padded(robot, scene, options.padding);
   const LinkId palm = robot.model->find_link("palm");

@@ -1,6 +1,7 @@
-#include "mamo/collision/collision_checker.hpp"
 #include "support/hulls.hpp"
 #include "support/robots.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo {
 namespace {
@@ -32,13 +33,15 @@ TEST(OverlappingObjects, AreThoseDeeperThanTheTolerance) {
     for (const auto& [b, half_b] : shapes) {
       const Pairs both = {{ObjectId{5}, ObjectId{6}}};
       EXPECT_EQ(overlapping(pair_of(a, b, half_a, half_b, 0.0012), 0.001), both) << describe(a) << ", " << describe(b);
-      EXPECT_EQ(overlapping(pair_of(a, b, half_a, half_b, 0.0008), 0.001), Pairs{}) << describe(a) << ", " << describe(b);
+      EXPECT_EQ(overlapping(pair_of(a, b, half_a, half_b, 0.0008), 0.001), Pairs{})
+          << describe(a) << ", " << describe(b);
       EXPECT_EQ(overlapping(pair_of(a, b, half_a, half_b, 0.0), 0.001), Pairs{}) << describe(a) << ", " << describe(b);
     }
 }
 
 TEST(OverlappingObjects, StandingOnTheShelfOverlapsNothing) {
-  for (std::uint64_t seed = 1; seed < 6; ++seed) EXPECT_TRUE(overlapping(fixtures::cluttered_shelf(10, 5, seed), 0.001).empty());
+  for (std::uint64_t seed = 1; seed < 6; ++seed)
+    EXPECT_TRUE(overlapping(fixtures::cluttered_shelf(10, 5, seed), 0.001).empty());
 }
 
 TEST(OverlappingObjects, FixturesMayOverlapFixtures) {

@@ -1,5 +1,6 @@
-#include "mamo/collision/collision_checker.hpp"
 #include "support/robots.hpp"
+
+#include "mamo/collision/collision_checker.hpp"
 
 namespace mamo {
 namespace {
@@ -23,7 +24,8 @@ TEST(SelfPairs, LeaveOutAdjacentRigidAndAlwaysCollidingLinks) {
   choose_self_pairs(robot, {}, false, 1);
   const Named named{robot};
   EXPECT_FALSE(has(robot.self_pairs, named("elbow_link", "forearm_link"))) << "adjacent";
-  EXPECT_FALSE(has(robot.self_pairs, named("shoulder_pan_link", "upper_arm_link"))) << "adjacent but for a link without shape";
+  EXPECT_FALSE(has(robot.self_pairs, named("shoulder_pan_link", "upper_arm_link")))
+      << "adjacent but for a link without shape";
   EXPECT_FALSE(has(robot.self_pairs, named("l_finger", "r_finger"))) << "rigid: nothing moves between them";
   EXPECT_FALSE(has(robot.self_pairs, named("palm", "l_finger")));
   EXPECT_TRUE(has(robot.self_pairs, named("torso", "palm")));

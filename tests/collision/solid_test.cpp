@@ -77,7 +77,8 @@ TEST(Solid, ASmallBodyAnywhereInsideABigOneHits) {
 
 TEST(Solid, FacesThatAreAHairApartDoNotHitAndAHairDeepDo) {
   // Flush contacts along a face, the usual state of things on a shelf. z: how far the upper body is lifted.
-  const std::vector<std::pair<Shape, double>> flat = {{Box{{0.1, 0.06, 0.2}}, 0.1}, {Cylinder{0.04, 0.15}, 0.075},
+  const std::vector<std::pair<Shape, double>> flat = {{Box{{0.1, 0.06, 0.2}}, 0.1},
+                                                      {Cylinder{0.04, 0.15}, 0.075},
                                                       {Mesh{fixtures::box_hull({0.05, 0.03, 0.1}, {0, 0, 0})}, 0.1}};
   for (const auto& [a, half_a] : flat)
     for (const auto& [b, half_b] : flat)
@@ -102,7 +103,8 @@ TEST(Solid, ApartIsNeverSaidOfBodiesCloserThanTheClearance) {
     const Relation before = relation(a, b, clearance);
     ++(before == Relation::apart ? apart : before == Relation::near ? near : hits);
     if (before != Relation::apart) continue;
-    Eigen::Vector3d towards = (a.X.p - b.X.p).normalized() + 0.5 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    Eigen::Vector3d towards =
+        (a.X.p - b.X.p).normalized() + 0.5 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     b.X.p += towards.normalized() * clearance;
     ASSERT_NE(relation(a, b), Relation::hit) << "seed " << kSeed << ", k " << k;
   }

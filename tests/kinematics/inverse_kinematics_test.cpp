@@ -14,7 +14,8 @@ struct Arm {
   InverseKinematics inverse{kinematics};
 };
 
-void expect_solution(const Arm& arm, const Eigen::VectorXd& q, const Eigen::Isometry3d& X_WT, const Eigen::VectorXd& seed_q) {
+void expect_solution(const Arm& arm, const Eigen::VectorXd& q, const Eigen::Isometry3d& X_WT,
+                     const Eigen::VectorXd& seed_q) {
   ASSERT_TRUE(arm.robot.within_limits(q));
   const auto [distance, angle] = pose_error(arm.kinematics.tip_pose(q), X_WT);
   ASSERT_LE(distance, 1e-4 + 1e-12);

@@ -41,7 +41,8 @@ inline FclShape fcl_shape(const Shape& shape, double padding) {
 
 class BruteForce {
  public:
-  BruteForce(const Robot& robot, const Scene& scene, double padding) : robot_(robot), scene_(scene), kinematics_(robot) {
+  BruteForce(const Robot& robot, const Scene& scene, double padding)
+      : robot_(robot), scene_(scene), kinematics_(robot) {
     for (const Link& link : robot.model->links) {
       links_.emplace_back();
       for (const PlacedShape& s : link.collision) links_.back().push_back({fcl_shape(s.shape, 0), s.X_BS});
@@ -63,8 +64,7 @@ class BruteForce {
       if (held.value == static_cast<int>(o)) continue;
       for (std::size_t l = 0; l < links_.size(); ++l)
         hit = hit || (moves[l] && collide(links_[l], X_WL_[l], objects_[o], X_WO));
-      if (held.valid())
-        hit = hit || collide(held_shapes(), X_WL_[held_by.index()] * X_LHeld, objects_[o], X_WO);
+      if (held.valid()) hit = hit || collide(held_shapes(), X_WL_[held_by.index()] * X_LHeld, objects_[o], X_WO);
       if (hit) out.emplace_back(o);
     }
     return out;
@@ -73,9 +73,11 @@ class BruteForce {
     kinematics_.link_poses(q, X_WL_);
     for (const auto& [a, b] : robot_.self_pairs) {
       if (collide(links_[a.index()], X_WL_[a.index()], links_[b.index()], X_WL_[b.index()])) return true;
-      if (held.valid() && a == held_by && collide(held_shapes(), X_WL_[a.index()] * X_LHeld, links_[b.index()], X_WL_[b.index()]))
+      if (held.valid() && a == held_by &&
+          collide(held_shapes(), X_WL_[a.index()] * X_LHeld, links_[b.index()], X_WL_[b.index()]))
         return true;
-      if (held.valid() && b == held_by && collide(held_shapes(), X_WL_[b.index()] * X_LHeld, links_[a.index()], X_WL_[a.index()]))
+      if (held.valid() && b == held_by &&
+          collide(held_shapes(), X_WL_[b.index()] * X_LHeld, links_[a.index()], X_WL_[a.index()]))
         return true;
     }
     return false;

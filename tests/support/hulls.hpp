@@ -13,7 +13,8 @@ inline std::shared_ptr<ConvexHull> ellipsoid_hull(const Eigen::Vector3d& half, c
                                                   int sectors) {
   auto hull = std::make_shared<ConvexHull>();
   const auto point = [&](double polar, double azimuth) {
-    const Eigen::Vector3d unit(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+    const Eigen::Vector3d unit(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                               std::cos(polar));
     return Eigen::Vector3d(centre + half.cwiseProduct(unit));
   };
   hull->vertices.push_back(point(0, 0));
@@ -40,7 +41,8 @@ inline std::shared_ptr<ConvexHull> ellipsoid_hull(const Eigen::Vector3d& half, c
 inline std::shared_ptr<ConvexHull> box_hull(const Eigen::Vector3d& half, const Eigen::Vector3d& centre) {
   auto hull = std::make_shared<ConvexHull>();
   for (int c = 0; c < 8; ++c)
-    hull->vertices.push_back(centre + half.cwiseProduct(Eigen::Vector3d(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1)));
+    hull->vertices.push_back(centre +
+                             half.cwiseProduct(Eigen::Vector3d(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1)));
   hull->triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   hull->centroid = centre;
