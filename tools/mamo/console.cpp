@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdlib>
 
@@ -32,7 +33,9 @@ void Console::note(std::string_view text) {
   if (!quiet && verbosity > 0) line(text);
 }
 void Console::warn_all(const std::vector<std::string>& lines) {
-  for (const std::string& text : lines) warn(text);
+  const std::size_t shown = verbosity > 0 ? lines.size() : std::min<std::size_t>(lines.size(), 4);
+  for (std::size_t i = 0; i < shown; ++i) warn(lines[i]);
+  if (shown < lines.size()) warn(format("and %zu more like these; -v shows them all", lines.size() - shown));
 }
 
 bool Console::shows_progress() const { return !quiet && isatty(STDERR_FILENO); }

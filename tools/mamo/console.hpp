@@ -21,6 +21,7 @@ class Console {
   void error(std::string_view text);
   void warn(std::string_view text);
   void note(std::string_view text);
+  /// The first few, and how many more there are; all of them with -v.
   void warn_all(const std::vector<std::string>& lines);
 
   /// A line on standard error that the next one overwrites; nothing unless standard error is a terminal.

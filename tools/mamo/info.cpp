@@ -72,30 +72,32 @@ Result<Info> problem_info(const InfoCommand& command, Console& console) {
   return Info{view::describe(*problem), command.svg.empty() ? "" : view::top_view_svg(*problem)};
 }
 
-std::string facts_line(const std::string& path) {
-  const PlanFacts facts = read_plan_facts(path);
+std::string facts_line(const PlanFacts& facts) {
   if (facts.planner.empty()) return "";
-  return "result of " + facts.planner + " for " + facts.problem + ": " + facts.status + ", signature " +
+  const std::string reason = facts.reason.empty() ? "" : " (" + facts.reason + ")";
+  return "result of " + facts.planner + " for " + facts.problem + ": " + facts.status + reason + ", signature " +
          facts.signature + "\n";
 }
 
 Result<Info> plan_info(const InfoCommand& command, Console& console) {
   const std::string& path = command.files.problem;
+  const PlanFacts facts = read_plan_facts(path);
+  const bool drawn = !command.svg.empty();
+  if (command.problem.empty() && drawn) return no_picture("which problem is " + path + " for?");
+  if (facts.without_plan && !drawn) return Info{facts_line(facts), ""};
+  Problem problem;
   if (command.problem.empty()) {
-    if (!command.svg.empty()) return no_picture("which problem is " + path + " for?");
-    const Problem stand_in = stand_in_problem(path);
-    const Result<Plan> plan = io::load_plan(path, stand_in);
-    if (!plan.ok()) return plan.error();
-    return Info{facts_line(path) + view::describe(*plan, stand_in), ""};
+    problem = stand_in_problem(path);
+  } else {
+    FileOptions files = command.files;
+    files.problem = command.problem;
+    Result<Problem> loaded = load(files, console);
+    if (!loaded.ok()) return loaded.error();
+    problem = std::move(*loaded);
   }
-  FileOptions files = command.files;
-  files.problem = command.problem;
-  const Result<Problem> problem = load(files, console);
-  if (!problem.ok()) return problem.error();
-  const Result<Plan> plan = io::load_plan(path, *problem);
+  const Result<Plan> plan = io::load_plan(path, problem);
   if (!plan.ok()) return plan.error();
-  return Info{facts_line(path) + view::describe(*plan, *problem),
-              command.svg.empty() ? "" : view::top_view_svg(*problem, &*plan)};
+  return Info{facts_line(facts) + view::describe(*plan, problem), drawn ? view::top_view_svg(problem, &*plan) : ""};
 }
 
 Result<Info> inspect(const InfoCommand& command, Console& console) {

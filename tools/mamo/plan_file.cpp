@@ -72,8 +72,14 @@ Robot robot_with(const std::vector<std::string>& joints) {
 PlanFacts read_plan_facts(const std::string& path) {
   const Json json = parse(path);
   if (!json.is_object()) return {};
-  return {text_of(json, "planner"), text_of(json, "status"), text_of(json, "problem"), text_of(json, "problem_sha256"),
-          text_of(json, "signature")};
+  const PlanFacts facts{text_of(json, "planner"),
+                        text_of(json, "status"),
+                        text_of(json, "reason"),
+                        text_of(json, "problem"),
+                        text_of(json, "problem_sha256"),
+                        text_of(json, "signature"),
+                        !text_of(json, "status").empty() && text_of(json, "status") != "solved"};
+  return facts;
 }
 
 Problem stand_in_problem(const std::string& plan_path) {

@@ -10,7 +10,8 @@ namespace mamo::tool {
 
 /// What a result object says about itself; empty where it does not (a bare plan, another file).
 struct PlanFacts {
-  std::string planner, status, problem, problem_sha256, signature;
+  std::string planner, status, reason, problem, problem_sha256, signature;
+  bool without_plan = false;  // a result object of a run that found none
 };
 PlanFacts read_plan_facts(const std::string& path);
 
