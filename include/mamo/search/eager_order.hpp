@@ -26,8 +26,8 @@ class EagerOrder {
   EagerOrder(const D& domain, Table& table, const SearchOptions& options)
       : domain_(domain), table_(table), options_(options), weight_(options.weight), log_(domain, table, options) {}
 
-  template <class Edges>
-  void begin(StateId start, Edges&&) {
+  template <OrderHost Host>
+  void begin(StateId start, Host&) {
     const Cost h = domain_.heuristic(table_.state(start));
     if (h >= kUnreachable) {
       ++log_.counters().pruned_infinite;
@@ -36,13 +36,14 @@ class EagerOrder {
     }
   }
 
-  /// The next edge of the state being expanded, or null when the search has ended.
-  template <class Edges>
-  const Need* next(Edges&& edges) {
+  /// The next edge of the state being expanded, or {state, kSuccessors} of the state about to be expanded, or null
+  /// when the search has ended.
+  template <OrderHost Host>
+  const Need* next(Host& host) {
     while (!ended_ && !waiting_) {
       if (node_ < 0) {
-        expand_best(edges);
-      } else if (!find_edge()) {
+        if (!expand_best(host)) return &need_;
+      } else if (!find_edge(host)) {
         node_ = -1;
       } else if (const auto limit = log_.evaluation_limit()) {
         end(*limit);
@@ -53,9 +54,9 @@ class EagerOrder {
     return ended_ ? nullptr : &need_;
   }
 
-  /// The outcome of what next() asked for. Returns kNoState: states close in next().
-  template <class Edges>
-  StateId commit(const Outcome& outcome, Edges&&) {
+  /// The outcome of what next() asked for. States close in next(): the parent of a need is closed.
+  template <OrderHost Host>
+  Committed commit(const Outcome& outcome, Host&) {
     using Verdict = typename Log::Verdict;
     waiting_ = false;
     const LazyEdge& edge = edges_[edge_++];
@@ -63,18 +64,18 @@ class EagerOrder {
     log_.book(need_.parent, need_.action, outcome);
     if (!outcome.report.valid) {
       log_.record(need_.parent, need_.action, g, Verdict::invalid);
-      return kNoState;
+      return {};
     }
     const StateId closer = table_.closed_by(outcome.child);
     const bool cheaper = closer == kNoState && improves(outcome.child, g);
     log_.record(need_.parent, need_.action, g, cheaper ? Verdict::accepted : Verdict::duplicate, outcome.child);
     if (cheaper) {
       push(weight_.f(g, edge.heuristic), g, node_, need_.edge, need_.action, outcome.child);
-    } else {
-      ++log_.counters().duplicates;
-      log_.count_merge(closer != kNoState && closer != outcome.child);
+      return {kNoState, outcome.child};
     }
-    return kNoState;
+    ++log_.counters().duplicates;
+    log_.count_merge(closer != kNoState && closer != outcome.child);
+    return {};
   }
 
   void abort(EndReason reason) {
@@ -88,19 +89,21 @@ class EagerOrder {
   const Weight& weight() const { return weight_; }
 
  private:
-  void end(EndReason reason) {
+  bool end(EndReason reason) {
     ended_ = true;
     reason_ = reason;
     if (node_ >= 0 && goal_ < 0) open_.push(head_);  // for the lower bound: its expansion is not complete
+    return true;
   }
   void push(Cost f, Cost g, std::int32_t parent, std::int32_t edge, std::int32_t action, StateId state) {
     open_.push({f, g, seq_++, parent, edge, action, state.value});
     ++log_.counters().generated;
   }
 
-  /// Closes the best state of OPEN and makes it the one being expanded, unless the search ends.
-  template <class Edges>
-  void expand_best(Edges&& edges) {
+  /// Closes the best state of OPEN and makes it the one being expanded, unless the search ends. False: need_ names
+  /// the state whose successors must be generated first; nothing has changed.
+  template <OrderHost Host>
+  bool expand_best(Host& host) {
     for (; !open_.empty(); open_.pop()) {
       const StateId state(open_.top().state);
       const StateId closer = table_.closed_by(state);
@@ -112,6 +115,13 @@ class EagerOrder {
     const StateId state(head_.state);
     const bool goal = domain_.is_goal(table_.state(state));
     if (const auto limit = log_.expansion_limit(); limit && !goal) return end(*limit);
+    if (!goal) {
+      const auto successors = host.successors(state);
+      need_ = {state, Need::kSuccessors, 0};
+      if (!successors) return false;
+      edges_.assign(successors->begin(), successors->end());
+      edge_ = 0;
+    }
     open_.pop();
     table_.close(state);
     node_ = log_.add_node({state, head_.node, head_.action, head_.g});
@@ -120,13 +130,12 @@ class EagerOrder {
       return end(EndReason::goal);
     }
     ++log_.counters().expansions;
-    const auto& successors = edges(state);
-    edges_.assign(std::begin(successors), std::end(successors));
-    edge_ = 0;
+    return true;
   }
 
   /// Finds the next edge worth asking for. False when the expansion is complete.
-  bool find_edge() {
+  template <OrderHost Host>
+  bool find_edge(Host& host) {
     const StateId parent = log_.node(node_).state;
     for (; edge_ < edges_.size(); ++edge_) {
       const LazyEdge& edge = edges_[edge_];
@@ -135,6 +144,8 @@ class EagerOrder {
         ++log_.counters().pruned_infinite;
       } else if (!drop_known_duplicate(log_.node(node_).g + edge.cost)) {
         return true;
+      } else {
+        host.dropped(need_);
       }
     }
     return false;

@@ -1,8 +1,6 @@
 // The serial order of lazy weighted A*, without the evaluations: it says which edge it needs next.
 #pragma once
 
-#include <span>
-
 #include "mamo/search/commit_log.hpp"
 
 namespace mamo::search {
@@ -25,7 +23,7 @@ namespace mamo::search {
 /// one state; g never changes once given; the sequence of needs is a function of the outcomes committed so far.
 /// Hence whoever feeds it, from however many threads, gets the serial search, if outcomes are pure.
 ///
-/// Edges: `edges(StateId)` gives the successors of a state; called when a state closes.
+/// A domain that fails to be pure voids all of this, and nothing here would notice; tests of the domain must.
 template <Domain D, class Table>
 class LazyOrder {
  public:
@@ -35,14 +33,14 @@ class LazyOrder {
   LazyOrder(const D& domain, Table& table, const SearchOptions& options)
       : domain_(domain), table_(table), options_(options), weight_(options.weight), log_(domain, table, options) {}
 
-  template <class Edges>
-  void begin(StateId start, Edges&& edges) {
-    close({start, -1, 0, 0}, weight_.f(0, 0), edges);
+  template <OrderHost Host>
+  void begin(StateId start, Host& host) {
+    close({start, -1, 0, 0}, weight_.f(0, 0), host);
   }
 
   /// The edge at the head of OPEN, or null when the search has ended. Changes nothing once it has answered.
-  template <class Edges>
-  const Need* next(Edges&&) {
+  template <OrderHost Host>
+  const Need* next(Host& host) {
     if (ended_ || waiting_) return ended_ ? nullptr : &need_;
     for (; !open_.empty(); open_.pop()) {
       if (const auto limit = log_.evaluation_limit()) return end(*limit);
@@ -52,13 +50,14 @@ class LazyOrder {
         waiting_ = true;
         return &need_;
       }
+      host.dropped(need_);
     }
     return end(EndReason::exhausted);
   }
 
-  /// The outcome of what next() asked for. Returns the state that this closed, if any.
-  template <class Edges>
-  StateId commit(const Outcome& outcome, Edges&& edges) {
+  /// The outcome of what next() asked for.
+  template <OrderHost Host>
+  Committed commit(const Outcome& outcome, Host& host) {
     using Verdict = typename Log::Verdict;
     const OpenEntry head = open_.top();
     open_.pop();
@@ -66,17 +65,17 @@ class LazyOrder {
     log_.book(need_.parent, need_.action, outcome);
     if (!outcome.report.valid) {
       log_.record(need_.parent, need_.action, head.g, Verdict::invalid);
-      return kNoState;
+      return {};
     }
     if (const StateId closer = table_.closed_by(outcome.child); closer != kNoState) {
       ++log_.counters().duplicates;
       log_.count_merge(closer != outcome.child);
       log_.record(need_.parent, need_.action, head.g, Verdict::duplicate, outcome.child);
-      return kNoState;
+      return {};
     }
     log_.record(need_.parent, need_.action, head.g, Verdict::accepted, outcome.child);
-    close({outcome.child, head.node, head.action, head.g}, head.f, edges);
-    return outcome.child;
+    close({outcome.child, head.node, head.action, head.g}, head.f, host);
+    return {outcome.child, kNoState};
   }
 
   /// Ends the search from outside (a stop, an exception).
@@ -97,8 +96,8 @@ class LazyOrder {
     return nullptr;
   }
 
-  template <class Edges>
-  void close(const typename Log::Node& node, Cost f, Edges&& edges) {
+  template <OrderHost Host>
+  void close(const typename Log::Node& node, Cost f, Host& host) {
     table_.close(node.state);
     const std::int32_t index = log_.add_node(node);
     if (domain_.is_goal(table_.state(node.state))) {
@@ -112,8 +111,9 @@ class LazyOrder {
       return;
     }
     ++log_.counters().expansions;
+    const std::span<const LazyEdge> edges = host.successors(node.state).value();
     std::int32_t i = 0;
-    for (const LazyEdge& edge : edges(node.state)) {
+    for (const LazyEdge& edge : edges) {
       if (edge.heuristic >= kUnreachable) {
         ++log_.counters().pruned_infinite;
       } else {
