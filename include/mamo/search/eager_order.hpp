@@ -15,11 +15,13 @@ namespace mamo::search {
 ///   1. pop the state of least (f, then larger g, then earlier push); its class closed: drop;
 ///   2. close its class with it; a goal: end;
 ///   3. ask for the outcomes of all its edges in order, those with kUnreachable left out; push the valid children
-///      whose class is open and that were not reached as cheaply before.
+///      whose class is open and that were not reached as cheaply before (a known child that was, or whose class is
+///      closed, costs no evaluation).
 /// With a consistent heuristic and no merged classes cost <= W x optimum. Limits may end an expansion in its middle.
-template <Domain D, class Table>
+template <class D, class Table>
 class EagerOrder {
  public:
+  static_assert(Domain<D>);
   using Log = CommitLog<D, Table>;
   using State = typename D::State;
 
@@ -71,7 +73,7 @@ class EagerOrder {
     log_.record(need_.parent, need_.action, g, cheaper ? Verdict::accepted : Verdict::duplicate, outcome.child);
     if (cheaper) {
       push(weight_.f(g, edge.heuristic), g, node_, need_.edge, need_.action, outcome.child);
-      return {kNoState, outcome.child};
+      return {kNoState, outcome.child, g};
     }
     ++log_.counters().duplicates;
     log_.count_merge(closer != kNoState && closer != outcome.child);
@@ -87,6 +89,10 @@ class EagerOrder {
   const OpenList& open() const { return open_; }
   const Log& log() const { return log_; }
   const Weight& weight() const { return weight_; }
+  /// The state whose edges are needed now, and its g.
+  StateId expanding() const { return node_ < 0 ? kNoState : log_.node(node_).state; }
+  Cost expanding_g() const { return log_.node(node_).g; }
+  static constexpr bool kLazy = false;
 
  private:
   bool end(EndReason reason) {
@@ -142,32 +148,31 @@ class EagerOrder {
       need_ = {parent, static_cast<std::int32_t>(edge_), edge.action};
       if (edge.heuristic >= kUnreachable) {
         ++log_.counters().pruned_infinite;
-      } else if (!drop_known_duplicate(log_.node(node_).g + edge.cost)) {
+      } else if (!drop_known_duplicate(log_.node(node_).g + edge.cost, host)) {
         return true;
-      } else {
-        host.dropped(need_);
       }
     }
     return false;
   }
 
-  bool drop_known_duplicate([[maybe_unused]] Cost g) {
-    if constexpr (PredictsChild<D>) {
-      if (!domain_.known_child(table_.state(need_.parent), need_.action, child_)) return false;
-      const StateId closer = table_.closed_by(child_);
-      if (closer == kNoState) return false;
-      ++log_.counters().known_duplicates;
-      log_.count_merge(!(table_.state(closer) == child_));
-      log_.record(need_.parent, need_.action, g, Log::Verdict::known_duplicate, closer);
-      return true;
-    }
-    return false;
+  template <OrderHost Host>
+  bool drop_known_duplicate(Cost g, Host& host) {
+    const StateId child = host.known_child(need_);
+    if (child == kNoState) return false;
+    const StateId closer = table_.closed_by(child);
+    if (closer == kNoState && g < best_g(child)) return false;
+    ++log_.counters().known_duplicates;
+    log_.count_merge(closer != kNoState && closer != child);
+    log_.record(need_.parent, need_.action, g, Log::Verdict::known_duplicate, child);
+    host.dropped(need_);
+    return true;
   }
 
-  /// Remembers the cheapest g at which each exact state was reached.
+  /// The cheapest g at which an exact state was reached.
+  Cost best_g(StateId state) const { return state.index() < best_g_.size() ? best_g_[state.index()] : kUnreachable; }
   bool improves(StateId state, Cost g) {
-    if (best_g_.size() <= state.index()) best_g_.resize(state.index() + 1 + best_g_.size() / 2, kUnreachable);
-    if (g >= best_g_[state.index()]) return false;
+    if (g >= best_g(state)) return false;
+    if (best_g_.size() <= state.index()) best_g_.resize(2 * state.index() + 64, kUnreachable);
     best_g_[state.index()] = g;
     return true;
   }
@@ -185,7 +190,6 @@ class EagerOrder {
   std::size_t edge_ = 0;
   std::vector<Cost> best_g_;  // by state id; decides, but is never iterated
   Need need_;
-  State child_{};  // scratch
   std::int32_t goal_ = -1;
   bool waiting_ = false, ended_ = false;
   EndReason reason_ = EndReason::exhausted;

@@ -24,9 +24,10 @@ namespace mamo::search {
 /// Hence whoever feeds it, from however many threads, gets the serial search, if outcomes are pure.
 ///
 /// A domain that fails to be pure voids all of this, and nothing here would notice; tests of the domain must.
-template <Domain D, class Table>
+template <class D, class Table>
 class LazyOrder {
  public:
+  static_assert(Domain<D>);
   using Log = CommitLog<D, Table>;
   using State = typename D::State;
 
@@ -46,11 +47,10 @@ class LazyOrder {
       if (const auto limit = log_.evaluation_limit()) return end(*limit);
       const OpenEntry& head = open_.top();
       need_ = {log_.node(head.node).state, head.edge, head.action};
-      if (!drop_known_duplicate(head)) {
+      if (!drop_known_duplicate(head, host)) {
         waiting_ = true;
         return &need_;
       }
-      host.dropped(need_);
     }
     return end(EndReason::exhausted);
   }
@@ -75,7 +75,7 @@ class LazyOrder {
     }
     log_.record(need_.parent, need_.action, head.g, Verdict::accepted, outcome.child);
     close({outcome.child, head.node, head.action, head.g}, head.f, host);
-    return {outcome.child, kNoState};
+    return {outcome.child, kNoState, head.g};
   }
 
   /// Ends the search from outside (a stop, an exception).
@@ -88,6 +88,7 @@ class LazyOrder {
   const OpenList& open() const { return open_; }
   const Log& log() const { return log_; }
   const Weight& weight() const { return weight_; }
+  static constexpr bool kLazy = true;
 
  private:
   const Need* end(EndReason reason) {
@@ -125,17 +126,16 @@ class LazyOrder {
     }
   }
 
-  bool drop_known_duplicate([[maybe_unused]] const OpenEntry& head) {
-    if constexpr (PredictsChild<D>) {
-      if (!domain_.known_child(table_.state(need_.parent), need_.action, child_)) return false;
-      const StateId closer = table_.closed_by(child_);
-      if (closer == kNoState) return false;
-      ++log_.counters().known_duplicates;
-      log_.count_merge(!(table_.state(closer) == child_));
-      log_.record(need_.parent, need_.action, head.g, Log::Verdict::known_duplicate, closer);
-      return true;
-    }
-    return false;
+  template <OrderHost Host>
+  bool drop_known_duplicate(const OpenEntry& head, Host& host) {
+    const StateId child = host.known_child(need_);
+    const StateId closer = child == kNoState ? kNoState : table_.closed_by(child);
+    if (closer == kNoState) return false;
+    ++log_.counters().known_duplicates;
+    log_.count_merge(closer != child);
+    log_.record(need_.parent, need_.action, head.g, Log::Verdict::known_duplicate, child);
+    host.dropped(need_);
+    return true;
   }
 
   const D& domain_;
@@ -146,7 +146,6 @@ class LazyOrder {
   OpenList open_;
   std::int64_t seq_ = 0;
   Need need_;
-  State child_{};  // scratch
   std::int32_t goal_ = -1;
   bool waiting_ = false;  // next() has answered, commit() not yet come
   bool ended_ = false;

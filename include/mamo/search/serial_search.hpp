@@ -12,23 +12,30 @@ namespace mamo::search {
 template <Domain D>
 class SerialHost {
  public:
-  SerialHost(const D& domain, typename D::Context& context, const StateTable<D>& table)
+  SerialHost(const D& domain, typename D::Context& context, StateTable<D>& table)
       : domain_(domain), context_(context), table_(table) {}
   std::optional<std::span<const LazyEdge>> successors(StateId state) {
     domain_.successors(context_, table_.state(state), edges_);
     return std::span<const LazyEdge>(edges_);
+  }
+  StateId known_child([[maybe_unused]] const Need& need) {
+    if constexpr (PredictsChild<D>) {
+      if (domain_.known_child(table_.state(need.parent), need.action, child_)) return table_.intern(child_);
+    }
+    return kNoState;
   }
   void dropped(const Need&) {}
 
  private:
   const D& domain_;
   typename D::Context& context_;
-  const StateTable<D>& table_;
+  StateTable<D>& table_;
   std::vector<LazyEdge> edges_;
+  typename D::State child_{};
 };
 
 /// Runs Order (LazyOrder or EagerOrder) to its end. Exceptions of the domain pass through.
-template <template <Domain, class> class Order, Domain D>
+template <template <class, class> class Order, Domain D>
 SearchResult<typename D::State> serial_search(const D& domain, typename D::Context& context,
                                               const SearchOptions& options) {
   StateTable<D> table(domain);

@@ -26,8 +26,9 @@ class StateTable {
   struct Record {
     State state{};
     std::uint64_t hash = 0, class_hash = 0;
-    std::int32_t class_of = -1;                // the member that represents the class
-    std::atomic<std::int32_t> closed_by{-1};   // kept at the representative
+    std::int32_t class_of = -1;               // the member that represents the class
+    std::atomic<std::int32_t> closed_by{-1};  // kept at the representative
+    std::atomic<bool> expanded{false};
   };
   using Writer = typename ClosedList<Record>::Writer;
 
@@ -76,6 +77,10 @@ class StateTable {
   void close(StateId id) {
     states_[states_[id.value].class_of].closed_by.store(id.value, std::memory_order_release);
   }
+  /// A note of the scheduler to workers, who need not generate the successors of such a state again. A hint, no more:
+  /// relaxed, and nothing is read on the strength of it.
+  void set_expanded(StateId id) { states_[id.value].expanded.store(true, std::memory_order_relaxed); }
+  bool expanded(StateId id) const { return states_[id.value].expanded.load(std::memory_order_relaxed); }
   /// Ids are below this.
   std::size_t id_bound() const { return states_.id_bound(); }
 
