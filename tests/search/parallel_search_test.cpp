@@ -75,6 +75,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, OnThreads, testing::Values(1, 2, 3, 4, 8, 16))
 RandomGraphOptions long_graph() {
   RandomGraphOptions options;
   options.nodes = 3000;
+  options.seed = 2;
   options.degree = 5;
   options.heuristic = 0;
   options.invalid = 0.1;
@@ -83,11 +84,15 @@ RandomGraphOptions long_graph() {
 
 TEST(ParallelSearch, StopsInTheMiddleWithAPrefixOfTheSerialSearch) {
   RandomGraphOptions graph = long_graph();
-  graph.layered = 5;
-  const RandomGraph domain(graph);
   RandomGraph::Context context;
   SearchOptions options;
-  const Result whole = serial_search<LazyOrder>(domain, context, options);
+  const RandomGraph quick(graph);
+  const Result whole = serial_search<LazyOrder>(quick, context, options);
+  ASSERT_GT(whole.counters.evaluations, 300);
+  graph.delay = ToyDelay::sleep;
+  graph.check_ms = 1;
+  graph.physics_rate = 0;
+  const RandomGraph domain(graph);
   for (const Schedule schedule : kSchedules) {
     Contexts all = contexts(4, 99);
     StopSource stop(0.02);
@@ -135,25 +140,29 @@ TEST(ParallelSearch, ObeysAStopWithinFiftyMilliseconds) {
 }
 
 TEST(ParallelSearch, CancelsSpeculationWhenTheGoalIsReached) {
-  // The goal is one cheap edge away; every other edge would take long, and is begun by the other workers.
-  RandomGraphOptions graph = long_graph();
-  graph.heuristic = 1;
-  graph.degree = 20;
-  graph.delay = ToyDelay::sleep;
-  graph.check_ms = 300;
-  graph.physics_rate = 0;
-  graph.nodes = 30;
-  graph.invalid = 0;
-  const RandomGraph domain(graph);
-  Contexts all = contexts(4);
-  SearchOptions options;
-  options.weight = 3;
-  ParallelStats stats;
-  ParallelOptions parallel;
-  const Result result = parallel_lazy_weighted_astar(domain, std::span(all), options, parallel, &stats);
-  EXPECT_TRUE(result.found());
-  EXPECT_EQ(stats.used, result.counters.evaluations);
-  EXPECT_GT(stats.cancelled, 0);
+  // Some edges take 200 ms, others 1; the goal is near.
+  std::int64_t cancelled = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomGraphOptions graph;
+    graph.seed = seed;
+    graph.nodes = 30;
+    graph.degree = 10;
+    graph.invalid = 0;
+    graph.delay = ToyDelay::sleep;
+    graph.check_ms = 1;
+    graph.physics_rate = 0.5;
+    graph.physics_ms = 100;
+    const RandomGraph domain(graph);
+    Contexts all = contexts(4);
+    SearchOptions options;
+    options.weight = 3;
+    ParallelStats stats;
+    const Result result = parallel_lazy_weighted_astar(domain, std::span(all), options, {}, &stats);
+    EXPECT_TRUE(result.found());
+    EXPECT_EQ(stats.used, result.counters.evaluations);
+    cancelled += stats.cancelled;
+  }
+  EXPECT_GT(cancelled, 0);
 }
 
 TEST(ParallelSearch, AnExceptionReachesTheCallerIfAndOnlyIfItsTurnComes) {
@@ -202,9 +211,14 @@ TEST(ParallelSearch, OneContextIsTheSerialLoop) {
 }
 
 TEST(ParallelSearch, ProgressComesOnTheCallersThread) {
-  const RandomGraph domain(long_graph());
+  RandomGraphOptions graph = long_graph();
+  graph.delay = ToyDelay::sleep;
+  graph.check_ms = 0.5;
+  graph.physics_rate = 0;
+  const RandomGraph domain(graph);
   Contexts all = contexts(3);
   SearchOptions options;
+  options.max_evaluations = 100;
   const auto caller = std::this_thread::get_id();
   int calls = 0;
   options.on_progress = [&](const SearchProgress&) {
