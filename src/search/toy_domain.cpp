@@ -22,12 +22,13 @@ RandomStream edge_stream(std::uint64_t seed, Purpose purpose, const ToyState& s,
 
 using Clock = std::chrono::steady_clock;
 
-/// Spends `ms`; false when cancelled before. Looks at the flag every half millisecond.
-bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel) {
+/// Spends `ms`; false when stopped before. Looks every half millisecond.
+bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel, StopSource* stop) {
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double, std::milli>(ms));
   while (Clock::now() < end) {
     if (cancel && cancel->load(std::memory_order_relaxed)) return false;
+    if (stop && stop->stopped()) return false;
     const auto slice = std::min(end, Clock::now() + std::chrono::microseconds(500));
     if (delay == ToyDelay::sleep) {
       std::this_thread::sleep_until(slice);
@@ -127,7 +128,9 @@ EdgeOutcome<ToyState> RandomGraph::evaluate(Context& context, const State& s, st
   ++context.evaluations;
   if (s.node == options_.throw_at_node) throw std::runtime_error("toy domain: scripted exception");
   EdgeOutcome<State> result = outcome(s, action);
-  if (options_.delay != ToyDelay::none) result.cancelled = !spend(options_.delay, evaluation_ms(s, action), cancel);
+  if (options_.delay != ToyDelay::none) {
+    result.cancelled = !spend(options_.delay, evaluation_ms(s, action), cancel, context.stop);
+  }
   if (context.jitter != 0) {
     context.jitter = mix64(context.jitter);
     if (context.jitter % 4 == 0) std::this_thread::sleep_for(std::chrono::microseconds(context.jitter >> 32 & 127));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mamo/common/hash.hpp"
@@ -22,8 +23,28 @@ struct Outcome {
 /// The edge whose outcome the serial order asks for next.
 struct Need {
   StateId parent;
-  std::int32_t edge = 0;  // index among the parent's successors
+  std::int32_t edge = 0;  // index among the parent's successors; kSuccessors: they themselves are needed
   std::int32_t action = 0;
+  static constexpr std::int32_t kSuccessors = -1;
+};
+
+/// What a commit did to OPEN.
+struct Committed {
+  StateId closed = kNoState;  // lazy: its edges are in OPEN now
+  StateId opened = kNoState;  // eager: it is in OPEN now
+  Cost g = 0;                 // of that state
+};
+
+/// What an order asks of whoever drives it:
+///   successors(state)  the edges of a state, or nothing if they are still to be generated (a lazy order's driver
+///                      always has them; an eager order then needs {state, kSuccessors});
+///   known_child(need)  the only child the edge can have, if the domain predicts one (PredictsChild), else kNoState;
+///   dropped(need)      told when an edge leaves the order without an evaluation.
+template <class H>
+concept OrderHost = requires(H host, StateId state, const Need& need) {
+  { host.successors(state) } -> std::same_as<std::optional<std::span<const LazyEdge>>>;
+  { host.known_child(need) } -> std::same_as<StateId>;
+  { host.dropped(need) };
 };
 
 template <Domain D, class Table>

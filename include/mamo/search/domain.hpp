@@ -19,13 +19,14 @@ struct LazyEdge {
   Cost heuristic = 0;       // of the child; must not depend on what the evaluation finds out
 };
 
-/// What an evaluation says besides its child. All of it is a pure function of (state, action).
+/// What an evaluation says besides its child. A pure function of (state, action), but for the last line.
 struct EdgeReport {
   bool valid = false;
   bool cancelled = false;   // stopped from outside: neither valid nor invalid, nothing else is meaningful
   std::int32_t tag = 0;     // the domain's own code (the lattice: cause of failure), tallied at commit
   std::int32_t charge = 0;  // uses of the counted resource (the lattice: simulations), limited by max_charge
   std::int64_t work = 0;    // summed at commit (the lattice: collision checks)
+  float costly_us = 0;      // CPU time of the dear tier (the lattice: physics); for traces, not a function of the edge
 };
 
 template <class State>

@@ -15,19 +15,21 @@ namespace mamo::search {
 ///   1. pop the state of least (f, then larger g, then earlier push); its class closed: drop;
 ///   2. close its class with it; a goal: end;
 ///   3. ask for the outcomes of all its edges in order, those with kUnreachable left out; push the valid children
-///      whose class is open and that were not reached as cheaply before.
+///      whose class is open and that were not reached as cheaply before (a known child that was, or whose class is
+///      closed, costs no evaluation).
 /// With a consistent heuristic and no merged classes cost <= W x optimum. Limits may end an expansion in its middle.
-template <Domain D, class Table>
+template <class D, class Table>
 class EagerOrder {
  public:
+  static_assert(Domain<D>);
   using Log = CommitLog<D, Table>;
   using State = typename D::State;
 
   EagerOrder(const D& domain, Table& table, const SearchOptions& options)
       : domain_(domain), table_(table), options_(options), weight_(options.weight), log_(domain, table, options) {}
 
-  template <class Edges>
-  void begin(StateId start, Edges&&) {
+  template <OrderHost Host>
+  void begin(StateId start, Host&) {
     const Cost h = domain_.heuristic(table_.state(start));
     if (h >= kUnreachable) {
       ++log_.counters().pruned_infinite;
@@ -36,13 +38,14 @@ class EagerOrder {
     }
   }
 
-  /// The next edge of the state being expanded, or null when the search has ended.
-  template <class Edges>
-  const Need* next(Edges&& edges) {
+  /// The next edge of the state being expanded, or {state, kSuccessors} of the state about to be expanded, or null
+  /// when the search has ended.
+  template <OrderHost Host>
+  const Need* next(Host& host) {
     while (!ended_ && !waiting_) {
       if (node_ < 0) {
-        expand_best(edges);
-      } else if (!find_edge()) {
+        if (!expand_best(host)) return &need_;
+      } else if (!find_edge(host)) {
         node_ = -1;
       } else if (const auto limit = log_.evaluation_limit()) {
         end(*limit);
@@ -53,9 +56,9 @@ class EagerOrder {
     return ended_ ? nullptr : &need_;
   }
 
-  /// The outcome of what next() asked for. Returns kNoState: states close in next().
-  template <class Edges>
-  StateId commit(const Outcome& outcome, Edges&&) {
+  /// The outcome of what next() asked for. States close in next(): the parent of a need is closed.
+  template <OrderHost Host>
+  Committed commit(const Outcome& outcome, Host&) {
     using Verdict = typename Log::Verdict;
     waiting_ = false;
     const LazyEdge& edge = edges_[edge_++];
@@ -63,18 +66,18 @@ class EagerOrder {
     log_.book(need_.parent, need_.action, outcome);
     if (!outcome.report.valid) {
       log_.record(need_.parent, need_.action, g, Verdict::invalid);
-      return kNoState;
+      return {};
     }
     const StateId closer = table_.closed_by(outcome.child);
     const bool cheaper = closer == kNoState && improves(outcome.child, g);
     log_.record(need_.parent, need_.action, g, cheaper ? Verdict::accepted : Verdict::duplicate, outcome.child);
     if (cheaper) {
       push(weight_.f(g, edge.heuristic), g, node_, need_.edge, need_.action, outcome.child);
-    } else {
-      ++log_.counters().duplicates;
-      log_.count_merge(closer != kNoState && closer != outcome.child);
+      return {kNoState, outcome.child, g};
     }
-    return kNoState;
+    ++log_.counters().duplicates;
+    log_.count_merge(closer != kNoState && closer != outcome.child);
+    return {};
   }
 
   void abort(EndReason reason) {
@@ -86,21 +89,27 @@ class EagerOrder {
   const OpenList& open() const { return open_; }
   const Log& log() const { return log_; }
   const Weight& weight() const { return weight_; }
+  /// The state whose edges are needed now, and its g.
+  StateId expanding() const { return node_ < 0 ? kNoState : log_.node(node_).state; }
+  Cost expanding_g() const { return log_.node(node_).g; }
+  static constexpr bool kLazy = false;
 
  private:
-  void end(EndReason reason) {
+  bool end(EndReason reason) {
     ended_ = true;
     reason_ = reason;
     if (node_ >= 0 && goal_ < 0) open_.push(head_);  // for the lower bound: its expansion is not complete
+    return true;
   }
   void push(Cost f, Cost g, std::int32_t parent, std::int32_t edge, std::int32_t action, StateId state) {
     open_.push({f, g, seq_++, parent, edge, action, state.value});
     ++log_.counters().generated;
   }
 
-  /// Closes the best state of OPEN and makes it the one being expanded, unless the search ends.
-  template <class Edges>
-  void expand_best(Edges&& edges) {
+  /// Closes the best state of OPEN and makes it the one being expanded, unless the search ends. False: need_ names
+  /// the state whose successors must be generated first; nothing has changed.
+  template <OrderHost Host>
+  bool expand_best(Host& host) {
     for (; !open_.empty(); open_.pop()) {
       const StateId state(open_.top().state);
       const StateId closer = table_.closed_by(state);
@@ -112,6 +121,13 @@ class EagerOrder {
     const StateId state(head_.state);
     const bool goal = domain_.is_goal(table_.state(state));
     if (const auto limit = log_.expansion_limit(); limit && !goal) return end(*limit);
+    if (!goal) {
+      const auto successors = host.successors(state);
+      need_ = {state, Need::kSuccessors, 0};
+      if (!successors) return false;
+      edges_.assign(successors->begin(), successors->end());
+      edge_ = 0;
+    }
     open_.pop();
     table_.close(state);
     node_ = log_.add_node({state, head_.node, head_.action, head_.g});
@@ -120,43 +136,43 @@ class EagerOrder {
       return end(EndReason::goal);
     }
     ++log_.counters().expansions;
-    const auto& successors = edges(state);
-    edges_.assign(std::begin(successors), std::end(successors));
-    edge_ = 0;
+    return true;
   }
 
   /// Finds the next edge worth asking for. False when the expansion is complete.
-  bool find_edge() {
+  template <OrderHost Host>
+  bool find_edge(Host& host) {
     const StateId parent = log_.node(node_).state;
     for (; edge_ < edges_.size(); ++edge_) {
       const LazyEdge& edge = edges_[edge_];
       need_ = {parent, static_cast<std::int32_t>(edge_), edge.action};
       if (edge.heuristic >= kUnreachable) {
         ++log_.counters().pruned_infinite;
-      } else if (!drop_known_duplicate(log_.node(node_).g + edge.cost)) {
+      } else if (!drop_known_duplicate(log_.node(node_).g + edge.cost, host)) {
         return true;
       }
     }
     return false;
   }
 
-  bool drop_known_duplicate([[maybe_unused]] Cost g) {
-    if constexpr (PredictsChild<D>) {
-      if (!domain_.known_child(table_.state(need_.parent), need_.action, child_)) return false;
-      const StateId closer = table_.closed_by(child_);
-      if (closer == kNoState) return false;
-      ++log_.counters().known_duplicates;
-      log_.count_merge(!(table_.state(closer) == child_));
-      log_.record(need_.parent, need_.action, g, Log::Verdict::known_duplicate, closer);
-      return true;
-    }
-    return false;
+  template <OrderHost Host>
+  bool drop_known_duplicate(Cost g, Host& host) {
+    const StateId child = host.known_child(need_);
+    if (child == kNoState) return false;
+    const StateId closer = table_.closed_by(child);
+    if (closer == kNoState && g < best_g(child)) return false;
+    ++log_.counters().known_duplicates;
+    log_.count_merge(closer != kNoState && closer != child);
+    log_.record(need_.parent, need_.action, g, Log::Verdict::known_duplicate, child);
+    host.dropped(need_);
+    return true;
   }
 
-  /// Remembers the cheapest g at which each exact state was reached.
+  /// The cheapest g at which an exact state was reached.
+  Cost best_g(StateId state) const { return state.index() < best_g_.size() ? best_g_[state.index()] : kUnreachable; }
   bool improves(StateId state, Cost g) {
-    if (best_g_.size() <= state.index()) best_g_.resize(state.index() + 1 + best_g_.size() / 2, kUnreachable);
-    if (g >= best_g_[state.index()]) return false;
+    if (g >= best_g(state)) return false;
+    if (best_g_.size() <= state.index()) best_g_.resize(2 * state.index() + 64, kUnreachable);
     best_g_[state.index()] = g;
     return true;
   }
@@ -174,7 +190,6 @@ class EagerOrder {
   std::size_t edge_ = 0;
   std::vector<Cost> best_g_;  // by state id; decides, but is never iterated
   Need need_;
-  State child_{};  // scratch
   std::int32_t goal_ = -1;
   bool waiting_ = false, ended_ = false;
   EndReason reason_ = EndReason::exhausted;

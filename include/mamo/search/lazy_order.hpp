@@ -1,8 +1,6 @@
 // The serial order of lazy weighted A*, without the evaluations: it says which edge it needs next.
 #pragma once
 
-#include <span>
-
 #include "mamo/search/commit_log.hpp"
 
 namespace mamo::search {
@@ -25,30 +23,31 @@ namespace mamo::search {
 /// one state; g never changes once given; the sequence of needs is a function of the outcomes committed so far.
 /// Hence whoever feeds it, from however many threads, gets the serial search, if outcomes are pure.
 ///
-/// Edges: `edges(StateId)` gives the successors of a state; called when a state closes.
-template <Domain D, class Table>
+/// A domain that fails to be pure voids all of this, and nothing here would notice; tests of the domain must.
+template <class D, class Table>
 class LazyOrder {
  public:
+  static_assert(Domain<D>);
   using Log = CommitLog<D, Table>;
   using State = typename D::State;
 
   LazyOrder(const D& domain, Table& table, const SearchOptions& options)
       : domain_(domain), table_(table), options_(options), weight_(options.weight), log_(domain, table, options) {}
 
-  template <class Edges>
-  void begin(StateId start, Edges&& edges) {
-    close({start, -1, 0, 0}, weight_.f(0, 0), edges);
+  template <OrderHost Host>
+  void begin(StateId start, Host& host) {
+    close({start, -1, 0, 0}, weight_.f(0, 0), host);
   }
 
   /// The edge at the head of OPEN, or null when the search has ended. Changes nothing once it has answered.
-  template <class Edges>
-  const Need* next(Edges&&) {
+  template <OrderHost Host>
+  const Need* next(Host& host) {
     if (ended_ || waiting_) return ended_ ? nullptr : &need_;
     for (; !open_.empty(); open_.pop()) {
       if (const auto limit = log_.evaluation_limit()) return end(*limit);
       const OpenEntry& head = open_.top();
       need_ = {log_.node(head.node).state, head.edge, head.action};
-      if (!drop_known_duplicate(head)) {
+      if (!drop_known_duplicate(head, host)) {
         waiting_ = true;
         return &need_;
       }
@@ -56,9 +55,9 @@ class LazyOrder {
     return end(EndReason::exhausted);
   }
 
-  /// The outcome of what next() asked for. Returns the state that this closed, if any.
-  template <class Edges>
-  StateId commit(const Outcome& outcome, Edges&& edges) {
+  /// The outcome of what next() asked for.
+  template <OrderHost Host>
+  Committed commit(const Outcome& outcome, Host& host) {
     using Verdict = typename Log::Verdict;
     const OpenEntry head = open_.top();
     open_.pop();
@@ -66,17 +65,17 @@ class LazyOrder {
     log_.book(need_.parent, need_.action, outcome);
     if (!outcome.report.valid) {
       log_.record(need_.parent, need_.action, head.g, Verdict::invalid);
-      return kNoState;
+      return {};
     }
     if (const StateId closer = table_.closed_by(outcome.child); closer != kNoState) {
       ++log_.counters().duplicates;
       log_.count_merge(closer != outcome.child);
       log_.record(need_.parent, need_.action, head.g, Verdict::duplicate, outcome.child);
-      return kNoState;
+      return {};
     }
     log_.record(need_.parent, need_.action, head.g, Verdict::accepted, outcome.child);
-    close({outcome.child, head.node, head.action, head.g}, head.f, edges);
-    return outcome.child;
+    close({outcome.child, head.node, head.action, head.g}, head.f, host);
+    return {outcome.child, kNoState, head.g};
   }
 
   /// Ends the search from outside (a stop, an exception).
@@ -89,6 +88,7 @@ class LazyOrder {
   const OpenList& open() const { return open_; }
   const Log& log() const { return log_; }
   const Weight& weight() const { return weight_; }
+  static constexpr bool kLazy = true;
 
  private:
   const Need* end(EndReason reason) {
@@ -97,8 +97,8 @@ class LazyOrder {
     return nullptr;
   }
 
-  template <class Edges>
-  void close(const typename Log::Node& node, Cost f, Edges&& edges) {
+  template <OrderHost Host>
+  void close(const typename Log::Node& node, Cost f, Host& host) {
     table_.close(node.state);
     const std::int32_t index = log_.add_node(node);
     if (domain_.is_goal(table_.state(node.state))) {
@@ -112,8 +112,9 @@ class LazyOrder {
       return;
     }
     ++log_.counters().expansions;
+    const std::span<const LazyEdge> edges = host.successors(node.state).value();
     std::int32_t i = 0;
-    for (const LazyEdge& edge : edges(node.state)) {
+    for (const LazyEdge& edge : edges) {
       if (edge.heuristic >= kUnreachable) {
         ++log_.counters().pruned_infinite;
       } else {
@@ -125,17 +126,16 @@ class LazyOrder {
     }
   }
 
-  bool drop_known_duplicate([[maybe_unused]] const OpenEntry& head) {
-    if constexpr (PredictsChild<D>) {
-      if (!domain_.known_child(table_.state(need_.parent), need_.action, child_)) return false;
-      const StateId closer = table_.closed_by(child_);
-      if (closer == kNoState) return false;
-      ++log_.counters().known_duplicates;
-      log_.count_merge(!(table_.state(closer) == child_));
-      log_.record(need_.parent, need_.action, head.g, Log::Verdict::known_duplicate, closer);
-      return true;
-    }
-    return false;
+  template <OrderHost Host>
+  bool drop_known_duplicate(const OpenEntry& head, Host& host) {
+    const StateId child = host.known_child(need_);
+    const StateId closer = child == kNoState ? kNoState : table_.closed_by(child);
+    if (closer == kNoState) return false;
+    ++log_.counters().known_duplicates;
+    log_.count_merge(closer != child);
+    log_.record(need_.parent, need_.action, head.g, Log::Verdict::known_duplicate, child);
+    host.dropped(need_);
+    return true;
   }
 
   const D& domain_;
@@ -146,7 +146,6 @@ class LazyOrder {
   OpenList open_;
   std::int64_t seq_ = 0;
   Need need_;
-  State child_{};  // scratch
   std::int32_t goal_ = -1;
   bool waiting_ = false;  // next() has answered, commit() not yet come
   bool ended_ = false;

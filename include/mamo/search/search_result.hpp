@@ -41,7 +41,7 @@ struct SearchCounters {
   std::int64_t evaluations = 0;      // = valid + invalid
   std::int64_t valid = 0, invalid = 0;
   std::int64_t duplicates = 0;       // valid, but the child's class was closed (eager: or reached as cheaply)
-  std::int64_t known_duplicates = 0; // dropped unevaluated: the known child's class was closed
+  std::int64_t known_duplicates = 0; // dropped unevaluated: the known child was closed (eager: or reached) before
   std::int64_t merged = 0;           // dropped duplicates whose exact key differed from the one that closed
   std::int64_t pruned_infinite = 0;  // edges dropped for their kUnreachable heuristic
   std::int64_t charge = 0, work = 0;

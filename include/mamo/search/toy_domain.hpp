@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mamo/common/stop.hpp"
 #include "mamo/search/domain.hpp"
 
 namespace mamo::search {
@@ -47,7 +48,8 @@ class RandomGraph {
   using State = ToyState;
   struct Context {
     std::int64_t evaluations = 0;
-    std::uint64_t jitter = 0;  // not 0: sleeps random short times, to shake threads; changes no outcome
+    std::uint64_t jitter = 0;    // not 0: sleeps random short times, to shake threads; changes no outcome
+    StopSource* stop = nullptr;  // polled during delays; may be null
   };
   struct Edge {
     std::int32_t to;

@@ -1,0 +1,217 @@
+// Weighted A* on several threads: the same result as on one.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "mamo/common/cpu_time.hpp"
+#include "mamo/common/executor.hpp"
+#include "mamo/search/eager_order.hpp"
+#include "mamo/search/lazy_order.hpp"
+#include "mamo/search/scheduler.hpp"
+#include "mamo/search/serial_search.hpp"
+
+namespace mamo::search {
+
+/// Drives a Scheduler with one worker per context. Every worker runs the same loop: take a job under the lock,
+/// evaluate it unlocked (intern the child and generate its successors there too), hand it in under the lock, which
+/// commits whatever can be committed. Workers without anything to do sleep on a condition variable; nobody spins.
+///
+/// The lock is held for a few microseconds per job; a job should be worth ten times that. Stops: the source is asked
+/// before every job, and evaluations poll it themselves (domain.hpp), as well as their cancel flag.
+template <template <class, class> class OrderT, Domain D>
+class ParallelSearch {
+ public:
+  using Context = typename D::Context;
+  using Sched = Scheduler<OrderT, D>;
+
+  ParallelSearch(const D& domain, std::span<Context> contexts, const SearchOptions& options,
+                 const ParallelOptions& parallel)
+      : domain_(domain),
+        contexts_(contexts),
+        options_(options),
+        parallel_(parallel),
+        measured_(parallel.measure || parallel.trace),
+        table_(domain),
+        scheduler_(domain, table_, options, parallel, static_cast<int>(contexts.size())),
+        begun_(StopSource::Clock::now()) {}
+
+  /// Once. Throws what an evaluation threw whose turn had come.
+  SearchResult<typename D::State> run() {
+    const StateId start = table_.intern(domain_.start());
+    if (stopped()) {
+      scheduler_.abort(EndReason::stopped);
+    } else {
+      typename StateTable<D>::Writer writer;
+      scheduler_.begin(start, Sched::Order::kLazy ? expand_state(0, writer, start) : nullptr, now());
+    }
+    if (!scheduler_.ended()) {
+      if (parallel_.executor) {
+        run_on(*parallel_.executor);
+      } else {
+        Executor own(static_cast<int>(contexts_.size()));
+        run_on(own);
+      }
+    }
+    if (error_) std::rethrow_exception(error_);
+    if (parallel_.trace) complete_trace(*parallel_.trace, start);
+    return scheduler_.result();
+  }
+  const ParallelStats& stats() const { return scheduler_.stats(); }
+
+ private:
+  void run_on(Executor& executor) {
+    if (executor.workers() != static_cast<int>(contexts_.size())) {
+      throw std::invalid_argument("a parallel search needs one context per worker of its executor");
+    }
+    executor.run([this](WorkerId w) { work(w.value); });
+  }
+
+  void work(int w) {
+    typename StateTable<D>::Writer writer;
+    std::unique_lock lock(mutex_);
+    try {
+      for (std::uint32_t step = 0; !scheduler_.ended(); ++step) {
+        if (stopped()) {
+          scheduler_.abort(EndReason::stopped);
+          break;
+        }
+        const auto job = scheduler_.take(w, now());
+        if (!job) {
+          ++idle_;
+          work_.wait(lock);
+          --idle_;
+          continue;
+        }
+        if (idle_ > 0 && scheduler_.has_work()) work_.notify_one();
+        const bool report = w == 0 && options_.on_progress && step % 16 == 0;
+        const SearchProgress progress = report ? scheduler_.progress() : SearchProgress{};
+        lock.unlock();
+        if (report) options_.on_progress(progress);
+        auto finished = perform(w, writer, *job);
+        lock.lock();
+        scheduler_.finish(w, std::move(finished), now());
+      }
+    } catch (...) {
+      if (!lock) lock.lock();
+      if (!error_) error_ = std::current_exception();
+      scheduler_.abort(EndReason::stopped);
+    }
+    work_.notify_all();
+  }
+
+  /// Unlocked.
+  typename Sched::Finished perform(int w, typename StateTable<D>::Writer& writer, const typename Sched::Job& job) {
+    typename Sched::Finished finished;
+    const double begun = measured_ ? thread_cpu_s() : 0;
+    if (!job.generates()) {
+      try {
+        const auto evaluated = domain_.evaluate(contexts_[static_cast<std::size_t>(w)], table_.state(job.need.parent),
+                                                job.need.action, scheduler_.cancel_flag(w));
+        finished.outcome.report = evaluated;
+        if (measured_) finished.seconds = thread_cpu_s() - begun;
+        if (evaluated.cancelled || !evaluated.valid) return finished;
+        finished.outcome.child = table_.intern(evaluated.child, writer);
+      } catch (...) {
+        finished.error = std::current_exception();
+        return finished;
+      }
+      if (!Sched::Order::kLazy) return finished;
+    }
+    const StateId state = job.generates() ? job.need.parent : finished.outcome.child;
+    if (table_.expanded(state) || table_.closed_by(state) != kNoState) return finished;
+    try {
+      finished.expansion = expand_state(w, writer, state);
+    } catch (...) {
+      finished.expansion_error = std::current_exception();
+    }
+    return finished;
+  }
+
+  std::unique_ptr<Expansion> expand_state(int w, typename StateTable<D>::Writer& writer, StateId state) {
+    return expand(domain_, contexts_[static_cast<std::size_t>(w)], table_, writer, state, scheduler_.weight(),
+                  Sched::Order::kLazy);
+  }
+  bool stopped() const { return options_.stop && options_.stop->stopped(); }
+  double now() const {
+    if (!parallel_.trace) return 0;
+    return std::chrono::duration<double>(StopSource::Clock::now() - begun_).count();
+  }
+
+  void complete_trace(Trace& trace, StateId start) {
+    trace.weight = scheduler_.weight().value();
+    trace.lazy = Sched::Order::kLazy;
+    trace.threads = static_cast<int>(contexts_.size());
+    trace.schedule = to_string(parallel_.schedule);
+    trace.wall_s = now();
+    trace.start = start.value;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(table_.id_bound()); ++i) {
+      const Expansion* expansion = scheduler_.expansion(StateId(i));
+      if (!expansion) continue;
+      const auto& state = table_.state(StateId(i));
+      TraceState record{i, table_.class_of(StateId(i)).value, domain_.is_goal(state), domain_.heuristic(state), {}};
+      for (std::size_t k = 0; k < expansion->edges.size(); ++k) {
+        const LazyEdge& edge = expansion->edges[k];
+        record.edges.push_back({edge.cost, edge.heuristic, expansion->cells[k].known.value});
+      }
+      trace.states.push_back(std::move(record));
+    }
+  }
+
+  const D& domain_;
+  std::span<Context> contexts_;
+  const SearchOptions& options_;
+  const ParallelOptions& parallel_;
+  const bool measured_;
+  StateTable<D> table_;
+  std::mutex mutex_;               // guards the three below
+  Sched scheduler_;
+  std::exception_ptr error_;
+  int idle_ = 0;
+  std::condition_variable work_;   // something may be taken, or all is over
+  StopSource::Clock::time_point begun_;
+};
+
+/// Runs Order with one worker per context. With one context (and nothing to measure) this is serial_search().
+template <template <class, class> class OrderT, Domain D>
+SearchResult<typename D::State> parallel_search(const D& domain, std::span<typename D::Context> contexts,
+                                                const SearchOptions& options, const ParallelOptions& parallel,
+                                                ParallelStats* stats = nullptr) {
+  if (contexts.empty()) throw std::invalid_argument("a search needs at least one context");
+  if (contexts.size() == 1 && !parallel.trace && !parallel.measure) {
+    auto result = serial_search<OrderT>(domain, contexts[0], options);
+    if (stats) {
+      *stats = {};
+      stats->evaluations = stats->used = stats->heads = result.counters.evaluations;
+      stats->charge = result.counters.charge;
+    }
+    return result;
+  }
+  ParallelSearch<OrderT, D> search(domain, contexts, options, parallel);
+  auto result = search.run();
+  if (stats) *stats = search.stats();
+  return result;
+}
+
+/// Lazy weighted A* (LazyOrder).
+template <Domain D>
+SearchResult<typename D::State> parallel_lazy_weighted_astar(const D& domain, std::span<typename D::Context> contexts,
+                                                             const SearchOptions& options,
+                                                             const ParallelOptions& parallel = {},
+                                                             ParallelStats* stats = nullptr) {
+  return parallel_search<LazyOrder>(domain, contexts, options, parallel, stats);
+}
+
+/// Weighted A* (EagerOrder): the outgoing edges of a state are the jobs.
+template <Domain D>
+SearchResult<typename D::State> parallel_weighted_astar(const D& domain, std::span<typename D::Context> contexts,
+                                                        const SearchOptions& options,
+                                                        const ParallelOptions& parallel = {},
+                                                        ParallelStats* stats = nullptr) {
+  return parallel_search<EagerOrder>(domain, contexts, options, parallel, stats);
+}
+
+}  // namespace mamo::search

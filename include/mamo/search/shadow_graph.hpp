@@ -1,0 +1,307 @@
+// The part of the state space that is known but not committed: who leads where, how urgent it is, what to do next.
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "mamo/search/expansion.hpp"
+
+namespace mamo::search {
+
+/// Urgency of an evaluation: when the serial order could ask for it at the earliest.
+struct BenchKey {
+  Cost bench = 0;  // the largest f on the way there that OPEN must still rise to
+  Cost f = 0, g = 0;
+  friend bool operator<(const BenchKey& a, const BenchKey& b) {
+    if (a.bench != b.bench) return a.bench < b.bench;
+    if (a.f != b.f) return a.f < b.f;
+    return a.g > b.g;
+  }
+};
+
+/// The states that workers have met ("shadows": evaluated, most of them not committed yet), linked by the edges that
+/// are done, and PENDING, the queue of what could be evaluated ahead. Only speed depends on anything in here.
+///
+/// The bench key. A shadow's edge may have a tiny f, but the serial order cannot pop it before it has popped the
+/// edges that lead there. So the key of an edge is (max over the uncommitted edges on the way, itself included, of f;
+/// then its own f; then larger g). Ordering by raw f instead wastes most speculation (PARALLEL.md section 2.3).
+/// A state that several edges lead to has the least (bench, g) among them.
+///
+/// A shadow is alive while it is closed, or its class is open and a done edge of a living state leads to it. Only
+/// living shadows have entries in PENDING; each has one: its best fresh edge. Entries are replaced by version.
+///
+/// Not synchronised: the scheduler's lock guards it.
+template <Domain D, bool lazy>
+class ShadowGraph {
+ public:
+  static constexpr Cost kNow = std::numeric_limits<Cost>::min();
+
+  struct Shadow {
+    std::unique_ptr<Expansion> expansion;
+    Cost bench = kUnreachable, g = kUnreachable, h = 0;
+    std::int32_t live_in = 0;    // done edges of living states that lead here
+    std::uint32_t version = 0;   // of its entry in PENDING
+    std::int32_t cursor = 0;     // into expansion->order: everything before is not fresh
+    std::int32_t round = -1;     // of schedule `batch`
+    StateId next_in_class = kNoState, first_in_class = kNoState;
+    bool met = false, alive = false, closed = false, opened = false;
+    bool generating = false, failed = false;  // its successors are being generated; that threw
+  };
+  struct Item {
+    BenchKey key;
+    std::int32_t state;
+    std::uint32_t version;
+    friend bool operator<(const Item& a, const Item& b) {  // max-heap: the best last
+      if (b.key < a.key) return true;
+      if (a.key < b.key) return false;
+      return a.state > b.state;
+    }
+  };
+
+  /// ahead: shadows may be pending before they are committed (schedule runahead).
+  ShadowGraph(const StateTable<D>& table, const Weight& weight, bool ahead)
+      : table_(table), weight_(weight), ahead_(ahead) {}
+
+  Shadow& at(StateId id) {
+    if (shadows_.size() <= id.index()) shadows_.resize(std::max(table_.id_bound(), id.index() + 1));
+    return shadows_[id.index()];
+  }
+  const Shadow* peek(StateId id) const { return id.index() < shadows_.size() ? &shadows_[id.index()] : nullptr; }
+
+  /// Keeps the successors of a state, unless it has some.
+  void adopt(StateId id, std::unique_ptr<Expansion> expansion) {
+    Shadow& s = at(id);
+    if (s.expansion || !expansion) return;
+    s.expansion = std::move(expansion);
+    requeue(id);
+  }
+
+  /// A done edge of `parent` leads to `child`.
+  void link(StateId parent, std::int32_t edge, StateId child) {
+    Shadow& c = at(child);
+    meet(child);
+    if (!at(parent).alive) return;
+    ++c.live_in;
+    set_alive(child);
+    const Step step = step_over(parent, edge, child);
+    improve(step.id, step.bench, step.g, step.h);
+  }
+
+  /// The order has closed a state: its edges' turn is by their own f, other members of its class are dead.
+  void close(StateId id, Cost g) {
+    meet(id);
+    Shadow& s = at(id);
+    s.closed = true;
+    for (StateId m = at(table_.class_of(id)).first_in_class; m != kNoState; m = at(m).next_in_class) set_alive(m);
+    s.bench = kNow;
+    s.g = g;
+    const std::size_t bottom = steps_.size();
+    relax_children(id);
+    while (steps_.size() > bottom) {
+      const Step step = steps_.back();
+      steps_.pop_back();
+      improve(step.id, step.bench, step.g, step.h);
+    }
+    requeue(id);
+  }
+  /// The (eager) order has put a state into OPEN.
+  void open(StateId id, Cost g) {
+    meet(id);
+    at(id).opened = true;
+    set_alive(id);
+    improve(id, kNow, g, at(id).h);
+  }
+
+  /// An edge is fresh again.
+  void rewind(StateId id) {
+    at(id).cursor = 0;
+    requeue(id);
+  }
+
+  BenchKey key_of(const Shadow& s, std::int32_t edge) const {
+    if constexpr (lazy) {
+      const LazyEdge& e = s.expansion->edges[static_cast<std::size_t>(edge)];
+      const Cost g = s.g + e.cost, f = weight_.f(g, e.heuristic);
+      return {std::max(s.bench, f), f, g};
+    } else {
+      if (s.closed) return {kNow, kNow, s.g};
+      const Cost f = weight_.f(s.g, s.h);
+      return {std::max(s.bench, f), f, s.g};
+    }
+  }
+
+  /// The best entry of PENDING: {state, edge}, edge kSuccessors where they must be generated first. Nothing is taken.
+  std::optional<std::pair<StateId, std::int32_t>> best() {
+    while (!pending_.empty()) {
+      const Item top = pending_.front();
+      Shadow& s = shadows_[static_cast<std::size_t>(top.state)];
+      if (top.version != s.version) {
+        drop_top();
+        continue;
+      }
+      if (!s.expansion) return std::pair(StateId(top.state), Need::kSuccessors);
+      const std::int32_t edge = s.expansion->order[static_cast<std::size_t>(s.cursor)];
+      if (s.expansion->cells[static_cast<std::size_t>(edge)].phase == CellPhase::fresh) {
+        return std::pair(StateId(top.state), edge);
+      }
+      advance_top(s, top.state);
+    }
+    return std::nullopt;
+  }
+  /// Passes over best(): it was taken, or is not worth taking.
+  void pass() {
+    const Item top = pending_.front();
+    advance_top(shadows_[static_cast<std::size_t>(top.state)], top.state);
+  }
+
+  bool changed() { return std::exchange(changed_, false); }  // entries were added since the last call
+  std::size_t pending_size() const { return pending_.size(); }
+  /// Called with the worker of each running evaluation that died.
+  std::function<void(std::int32_t)> on_death;
+
+ private:
+  bool eligible(const Shadow& s) const {
+    if (!s.alive || s.failed) return false;
+    return ahead_ || s.closed || s.opened;
+  }
+
+  void meet(StateId id) {
+    Shadow& s = at(id);
+    if (s.met) return;
+    s.met = true;
+    Shadow& representative = at(table_.class_of(id));
+    s.next_in_class = representative.first_in_class;
+    representative.first_in_class = id;
+  }
+
+  void push(const Item& item) {
+    pending_.push_back(item);
+    std::push_heap(pending_.begin(), pending_.end());
+    changed_ = true;
+  }
+  void drop_top() {
+    std::pop_heap(pending_.begin(), pending_.end());
+    pending_.pop_back();
+  }
+  /// Replaces the top entry, which is s's, by the one of its next edge.
+  void advance_top(Shadow& s, std::int32_t id) {
+    drop_top();
+    ++s.version;
+    if (!s.expansion) return;
+    ++s.cursor;
+    enqueue(s, id);
+  }
+  /// Gives the state the entry it should have, or none.
+  void requeue(StateId id) {
+    Shadow& s = at(id);
+    ++s.version;
+    if (pending_.size() > 4096 + 4 * shadows_.size()) compact();
+    enqueue(s, id.value);
+  }
+  void enqueue(Shadow& s, std::int32_t id) {
+    if (!eligible(s)) return;
+    if (!s.expansion) {
+      if (!lazy && !s.generating) push({key_of(s, 0), id, s.version});
+      return;
+    }
+    const Expansion& x = *s.expansion;
+    const auto end = static_cast<std::int32_t>(x.order.size());
+    const auto edge = [&] { return static_cast<std::size_t>(x.order[static_cast<std::size_t>(s.cursor)]); };
+    while (s.cursor < end && x.cells[edge()].phase != CellPhase::fresh) ++s.cursor;
+    if (s.cursor < end) push({key_of(s, static_cast<std::int32_t>(edge())), id, s.version});
+  }
+  void compact() {
+    std::erase_if(pending_, [&](const Item& i) {
+      return i.version != shadows_[static_cast<std::size_t>(i.state)].version;
+    });
+    std::make_heap(pending_.begin(), pending_.end());
+  }
+
+  struct Step {
+    StateId id;
+    Cost bench, g, h;
+  };
+  /// What `parent` and its edge say of the child's bench, g and h.
+  Step step_over(StateId parent, std::int32_t edge, StateId child) {
+    const Shadow& p = at(parent);
+    const LazyEdge& e = p.expansion->edges[static_cast<std::size_t>(edge)];
+    const Cost g = p.g + e.cost;
+    if constexpr (lazy) return {child, std::max(p.bench, weight_.f(g, e.heuristic)), g, e.heuristic};
+    return {child, p.closed ? kNow : key_of(p, edge).bench, g, e.heuristic};
+  }
+
+  /// Lowers (bench, g) of a state and of all that hang on it through done edges. Ends: a value that comes round a
+  /// cycle has a larger g, and never a smaller bench.
+  void improve(StateId first, Cost bench, Cost g, Cost h) {
+    const std::size_t bottom = steps_.size();
+    steps_.push_back({first, bench, g, h});
+    while (steps_.size() > bottom) {
+      const Step step = steps_.back();
+      steps_.pop_back();
+      Shadow& s = at(step.id);
+      if (std::pair(step.bench, step.g) >= std::pair(s.bench, s.g)) continue;
+      s.bench = step.bench;
+      s.g = step.g;
+      s.h = step.h;
+      relax_children(step.id);
+      requeue(step.id);
+    }
+  }
+  void relax_children(StateId id) {
+    each_child(at(id), [&](std::int32_t edge, StateId child) { steps_.push_back(step_over(id, edge, child)); });
+  }
+
+  /// Settles whether a state lives, and then those that hang on it.
+  void set_alive(StateId first) {
+    const std::size_t bottom = settle_.size();
+    settle_.push_back(first);
+    while (settle_.size() > bottom) {
+      const StateId id = settle_.back();
+      settle_.pop_back();
+      Shadow& s = at(id);
+      const bool alive = s.closed || ((s.live_in > 0 || s.opened) && table_.closed_by(id) == kNoState);
+      if (alive == s.alive) continue;
+      s.alive = alive;
+      each_child(s, [&](std::int32_t, StateId child) {
+        at(child).live_in += alive ? 1 : -1;
+        settle_.push_back(child);
+      });
+      if (!alive) cancel_running(id);
+      requeue(id);
+    }
+  }
+  void cancel_running(StateId id) {
+    const Shadow& s = at(id);
+    if (!s.expansion || !on_death) return;
+    for (const Cell& cell : s.expansion->cells) {
+      if (cell.phase == CellPhase::running) on_death(cell.worker);
+    }
+  }
+
+  /// Visits the children that done edges lead to.
+  template <class Visit>
+  void each_child(const Shadow& s, Visit visit) {
+    if (!s.expansion) return;
+    const std::vector<Cell>& cells = s.expansion->cells;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (cells[i].phase == CellPhase::done && cells[i].report.valid) visit(static_cast<std::int32_t>(i), cells[i].child);
+    }
+  }
+
+  const StateTable<D>& table_;
+  const Weight& weight_;
+  bool ahead_;
+  bool changed_ = false;
+  std::deque<Shadow> shadows_;  // by state id
+  std::vector<Item> pending_;   // max-heap of Item's order: the most urgent on top
+  std::vector<Step> steps_;     // scratch
+  std::vector<StateId> settle_; // scratch
+};
+
+}  // namespace mamo::search
