@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mamo/collision/collision_checker.hpp"
+#include "mamo/lattice/goal_chain.hpp"
 
 namespace mamo {
 
@@ -13,7 +14,7 @@ struct LatticeOptions {
   double short_distance = 0.15;        // m of heuristic distance within which short primitives act
   double tip_step = 0.06;              // m, of the tip along its own axes at fixed orientation; 0: no tip steps
   double tip_turn_deg = 15.0;          // of the tip about its own axes (deg)
-  double orientation_share = 0.5;      // of the heuristic of a pose goal, the rest is the grid's
+  double orientation_share = 0.3;      // of the heuristic of a pose goal, the rest is the grid's
   int goal_configurations = 12;        // inverse-kinematics solutions that snap motions aim at
   int snaps = 3;                       // nearest goal configurations tried from a state
   double own_snap_distance = 0.2;      // m of heuristic distance within which a state tries its own solution
@@ -23,6 +24,7 @@ struct LatticeOptions {
   double object_position_resolution = 0.01;   // m, of the class of a state
   double object_angle_resolution_deg = 5.0;
   bool exact_objects = false;          // class = exact key
+  GoalChainOptions chains;
   CollisionOptions collision;
 };
 
