@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <memory>
 
 #include "mamo/model/shape.hpp"

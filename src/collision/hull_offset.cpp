@@ -8,8 +8,8 @@ std::vector<std::vector<Eigen::Vector3d>> normals_by_vertex(const ConvexHull& hu
   std::vector<std::vector<Eigen::Vector3d>> normals(hull.vertices.size());
   for (const auto& t : hull.triangles) {
     const Eigen::Vector3d& a = hull.vertices[static_cast<std::size_t>(t[0])];
-    const Eigen::Vector3d n = (hull.vertices[static_cast<std::size_t>(t[1])] - a)
-                                  .cross(hull.vertices[static_cast<std::size_t>(t[2])] - a);
+    const Eigen::Vector3d n =
+        (hull.vertices[static_cast<std::size_t>(t[1])] - a).cross(hull.vertices[static_cast<std::size_t>(t[2])] - a);
     if (n.norm() <= 0) continue;
     for (int v : t) normals[static_cast<std::size_t>(v)].push_back(n.normalized());
   }
@@ -50,7 +50,8 @@ std::vector<Eigen::Vector3d> offset_vertices(const ConvexHull& hull, double dist
         out[i] += distance * u;
       } else {  // a degenerate corner: the corners of a cube hold every direction
         for (int corner = 0; corner < 8; ++corner)
-          out.push_back(hull.vertices[i] + distance * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+          out.push_back(hull.vertices[i] +
+                        distance * Eigen::Vector3d(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
       }
     }
     return out;

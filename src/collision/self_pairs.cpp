@@ -1,7 +1,8 @@
 #include <map>
 #include <numbers>
 
-#include "fcl_geometry.hpp"
+#include "arm_parts.hpp"
+
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/common/random.hpp"
 
@@ -24,47 +25,40 @@ LinkId shaped_parent(const RobotModel& model, LinkId link) {
   return link;
 }
 
-/// Links that keep their place relative to each other share a number: that of the highest of them.
-std::vector<int> rigid_groups(const Robot& robot) {
-  const RobotModel& model = *robot.model;
-  std::vector<bool> driven(model.joints.size(), false);
-  for (JointId j : robot.group.joints) driven[j.index()] = true;
-  std::vector<int> group(model.links.size(), 0);
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& j = model.joints[i];
-    const bool moves = driven[i] || (j.mimic && driven[j.mimic->joint.index()]);
-    group[j.child.index()] = moves ? j.child.value : group[j.parent.index()];
-  }
-  return group;
-}
-
-class LinkGeometries {
+class LinkSolids {
  public:
-  explicit LinkGeometries(const RobotModel& model) : model_(model) {
+  explicit LinkSolids(const RobotModel& model) {
     for (const Link& link : model.links) {
-      geometries_.emplace_back();
-      for (const PlacedShape& s : link.collision) geometries_.back().push_back(collision::make_geometry(s.shape));
+      links_.emplace_back();
+      for (const PlacedShape& s : link.collision) {
+        Eigen::Vector3d centre;
+        const collision::Solid solid = collision::make_solid(s.shape, 0, centre);
+        links_.back().push_back({solid, s.X_BS * Eigen::Translation3d(centre)});
+      }
     }
   }
   bool collide(const std::vector<Eigen::Isometry3d>& X_WL, LinkPair pair) const {
-    const std::size_t a = pair.first.index(), b = pair.second.index();
-    for (std::size_t i = 0; i < geometries_[a].size(); ++i)
-      for (std::size_t k = 0; k < geometries_[b].size(); ++k)
-        if (collision::intersect(*geometries_[a][i], X_WL[a] * model_.links[a].collision[i].X_BS, *geometries_[b][k],
-                                 X_WL[b] * model_.links[b].collision[k].X_BS))
+    for (const Part& a : links_[pair.first.index()])
+      for (const Part& b : links_[pair.second.index()])
+        if (collision::relate(a.solid, placed(X_WL[pair.first.index()] * a.X_LS), b.solid,
+                              placed(X_WL[pair.second.index()] * b.X_LS), 0) == collision::Relation::hit)
           return true;
     return false;
   }
 
  private:
-  const RobotModel& model_;
-  std::vector<std::vector<collision::Geometry>> geometries_;
+  struct Part {
+    collision::Solid solid;
+    Eigen::Isometry3d X_LS;
+  };
+  static collision::Placed placed(const Eigen::Isometry3d& X) { return {X.linear(), X.translation()}; }
+  std::vector<std::vector<Part>> links_;
 };
 
 /// All pairs whose relative pose can change, less adjacent and listed ones.
 std::vector<LinkPair> candidates(const Robot& robot, const std::vector<LinkPair>& disabled) {
   const RobotModel& model = *robot.model;
-  const std::vector<int> group = rigid_groups(robot);
+  const std::vector<int> group = collision::rigid_groups(robot);
   std::vector<LinkPair> pairs;
   for (std::size_t a = 0; a < model.links.size(); ++a) {
     for (std::size_t b = a + 1; b < model.links.size(); ++b) {
@@ -88,12 +82,12 @@ void choose_self_pairs(Robot& robot, const std::vector<LinkPair>& disabled, bool
   if (srdf_given) return;
 
   const ForwardKinematics kinematics(robot);
-  const LinkGeometries geometries(*robot.model);
+  const LinkSolids solids(*robot.model);
   std::vector<Eigen::Isometry3d> X_WL;
   std::map<LinkPair, int> hits;
   kinematics.link_poses(robot.group_part(robot.posture), X_WL);
   for (const LinkPair& pair : robot.self_pairs)
-    if (geometries.collide(X_WL, pair)) hits[pair] = kSamples;
+    if (solids.collide(X_WL, pair)) hits[pair] = kSamples;
   RandomStream random(seed, {kStreamKey});
   Eigen::VectorXd q(robot.dof());
   for (int k = 0; k < kSamples; ++k) {
@@ -104,7 +98,7 @@ void choose_self_pairs(Robot& robot, const std::vector<LinkPair>& disabled, bool
     }
     kinematics.link_poses(q, X_WL);
     for (const LinkPair& pair : robot.self_pairs)
-      if (geometries.collide(X_WL, pair)) ++hits[pair];
+      if (solids.collide(X_WL, pair)) ++hits[pair];
   }
   const auto always = [&](const LinkPair& pair) { return hits[pair] >= kAlways * kSamples; };
   std::copy_if(robot.self_pairs.begin(), robot.self_pairs.end(), std::back_inserter(robot.disabled_pairs), always);

@@ -90,12 +90,23 @@ void ForwardKinematics::take(const Step& s, const Eigen::VectorXd& q, std::vecto
     R.col(to) = c * b - sine * a;
   };
   switch (s.motion) {
-    case Motion::none: break;
-    case Motion::about_x: turn(1, 2); break;
-    case Motion::about_y: turn(2, 0); break;
-    case Motion::about_z: turn(0, 1); break;
-    case Motion::about_axis: R = (R * Eigen::AngleAxisd(value, s.axis).toRotationMatrix()).eval(); break;
-    case Motion::along_axis: p += R * (value * s.axis); break;
+    case Motion::none:
+      break;
+    case Motion::about_x:
+      turn(1, 2);
+      break;
+    case Motion::about_y:
+      turn(2, 0);
+      break;
+    case Motion::about_z:
+      turn(0, 1);
+      break;
+    case Motion::about_axis:
+      R = (R * Eigen::AngleAxisd(value, s.axis).toRotationMatrix()).eval();
+      break;
+    case Motion::along_axis:
+      p += R * (value * s.axis);
+      break;
   }
   child.topLeftCorner<3, 3>() = R;
   child.topRightCorner<3, 1>() = p;

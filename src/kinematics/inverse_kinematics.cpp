@@ -96,7 +96,8 @@ class Descent {
       largest = std::max(largest, std::abs(next_[i] - q[i]));
     }
     if (largest > kLargestStep) next_ = q + (kLargestStep / largest) * (next_ - q);
-    for (int i = 0; i < robot_.dof(); ++i) next_[i] = std::clamp(next_[i], robot_.joint(i).lower, robot_.joint(i).upper);
+    for (int i = 0; i < robot_.dof(); ++i)
+      next_[i] = std::clamp(next_[i], robot_.joint(i).lower, robot_.joint(i).upper);
   }
 
   const ForwardKinematics& kinematics_;
@@ -159,7 +160,9 @@ std::vector<Eigen::VectorXd> InverseKinematics::solve_many(
     Eigen::VectorXd q = start_of_attempt(robot, seed_q, seed, attempt);
     if (!descent.run(q)) continue;
     unwind(robot, seed_q, q);
-    const auto is_near = [&](const Eigen::VectorXd& other) { return separation(robot, q, other) < options.min_separation; };
+    const auto is_near = [&](const Eigen::VectorXd& other) {
+      return separation(robot, q, other) < options.min_separation;
+    };
     if (std::none_of(found.begin(), found.end(), is_near) && (!accept || accept(q))) found.push_back(std::move(q));
   }
   return found;

@@ -7,9 +7,15 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// Actions are numbered: [0, 2n) long primitives, [2n, 4n) short ones, then goal k gives extend 4n + 2k, snap 4n + 2k + 1.
-std::int32_t extend_action(int dof, int goal) { return 4 * dof + 2 * goal; }
-std::int32_t snap_action(int dof, int goal) { return 4 * dof + 2 * goal + 1; }
+// Actions are numbered: [0, 2n) long primitives, [2n, 4n) short ones, kTipSteps steps of the tip, the snap onto one's
+// own solution, then for each goal an extend and a snap.
+constexpr std::int32_t kTipSteps = 12;
+std::int32_t tip_action(int dof, int index) { return 4 * dof + index; }
+std::int32_t own_snap_action(int dof) { return 4 * dof + kTipSteps; }
+std::int32_t extend_action(int dof, int goal) { return own_snap_action(dof) + 1 + 2 * goal; }
+std::int32_t snap_action(int dof, int goal) { return own_snap_action(dof) + 2 + 2 * goal; }
+
+constexpr double kOwnResolution = 1e-6;  // rad or m: unit of bins under kOwnConfiguration
 
 std::int32_t steps_of(double step, double resolution) {
   return std::max<std::int32_t>(1, static_cast<std::int32_t>(std::lround(step / resolution)));
@@ -55,6 +61,11 @@ LatticeModel::LatticeModel(const Problem& problem, std::shared_ptr<const Forward
 }
 
 Eigen::VectorXd LatticeModel::configuration(std::int32_t anchor, const std::vector<std::int32_t>& bins) const {
+  if (anchor == kOwnConfiguration) {
+    Eigen::VectorXd own(static_cast<Eigen::Index>(bins.size()));
+    for (std::size_t i = 0; i < bins.size(); ++i) own[static_cast<Eigen::Index>(i)] = bins[i] * kOwnResolution;
+    return own;
+  }
   Eigen::VectorXd q = anchor == 0 ? problem_.q_start : goal_.configurations[static_cast<std::size_t>(anchor - 1)];
   for (Eigen::Index i = 0; i < q.size(); ++i) q[i] += bins[static_cast<std::size_t>(i)] * resolution_[i];
   return q;
@@ -65,16 +76,25 @@ search::Cost LatticeModel::cost_of(const Eigen::VectorXd& dq) const {
 }
 
 search::Cost LatticeModel::heuristic(const Eigen::VectorXd& q) const {
-  const int distance = grid_.distance(kinematics_->tip_pose(q) * point_.p_T);
+  const Eigen::Isometry3d X_WT = kinematics_->tip_pose(q);
+  const int distance = grid_.distance(X_WT * point_.p_T);
   if (distance < 0) return search::kUnreachable;
-  return cost_per_cell_ * std::max(0, distance - 1);
+  const search::Cost grid = cost_per_cell_ * std::max(0, distance - 1);
+  if (const auto* joints = std::get_if<ReachJoints>(&goal_.task)) {
+    const double slack = joints->tolerance * std::sqrt(static_cast<double>(q.size()));
+    return std::max(grid, static_cast<search::Cost>(std::max(0.0, 1000.0 * ((q - joints->q).norm() - slack))));
+  }
+  const auto& pose = std::get<ReachPose>(goal_.task);
+  const double angle = Eigen::AngleAxisd(X_WT.linear().transpose() * pose.X_WT.linear()).angle();
+  const double turn = std::max(0.0, angle - pose.angle_tolerance) / std::sqrt(static_cast<double>(q.size()));
+  return static_cast<search::Cost>((1 - options_.orientation_share) * static_cast<double>(grid) +
+                                   options_.orientation_share * 1000.0 * turn);
 }
 
-bool LatticeModel::near_ends(const Eigen::VectorXd& q) const {
+LatticeModel::Nearness LatticeModel::nearness(const Eigen::VectorXd& q) const {
   const Eigen::Vector3d p = kinematics_->tip_pose(q) * point_.p_T;
   const int distance = grid_.distance(p);
-  return (p - p_start_).norm() <= options_.short_distance ||
-         (distance >= 0 && distance * grid_.cell() <= options_.short_distance);
+  return {(p - p_start_).norm(), distance < 0 ? std::numeric_limits<double>::infinity() : distance * grid_.cell()};
 }
 
 std::vector<int> LatticeModel::nearest_goals(const Eigen::VectorXd& q, int count) const {
@@ -101,21 +121,44 @@ bool LatticeModel::primitive(const LatticeState& state, int index, Move& out) co
   return problem_.robot.within_limits(configuration(out.anchor, out.bins));
 }
 
+bool LatticeModel::rounded_step(const LatticeState& state, const Eigen::VectorXd& q, const Eigen::VectorXd& dq,
+                                Move& out) const {
+  out.anchor = state.anchor;
+  out.bins = state.bins;
+  Eigen::VectorXd rounded(q.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const auto bins = static_cast<std::int32_t>(std::lround(dq[i] / resolution_[i]));
+    out.bins[static_cast<std::size_t>(i)] += bins;
+    rounded[i] = bins * resolution_[i];
+  }
+  out.cost = cost_of(rounded);
+  return out.cost >= shortest_ && problem_.robot.within_limits(q + rounded);
+}
+
+bool LatticeModel::tip_step(const LatticeState& state, const Eigen::VectorXd& q, int index, Move& out) const {
+  // Twist of the tip about or along one of its own axes, then damped least squares for the joints.
+  const Eigen::Matrix3d R = kinematics_->tip_pose(q).linear();
+  const int axis = index % 6 / 2;
+  const double sign = index % 2 ? -1 : 1;
+  Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
+  if (index < 6)
+    twist.head<3>() = sign * options_.tip_step * R.col(axis);
+  else
+    twist.tail<3>() = sign * options_.tip_turn_deg * kDegree * R.col(axis);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J;
+  kinematics_->jacobian(q, J);
+  constexpr double kDamping = 0.02;
+  const Eigen::Matrix<double, 6, 6> A = J * J.transpose() + kDamping * kDamping * Eigen::Matrix<double, 6, 6>::Identity();
+  out.action = tip_action(problem_.robot.dof(), index);
+  return rounded_step(state, q, J.transpose() * A.ldlt().solve(twist), out);
+}
+
 bool LatticeModel::extend(const LatticeState& state, const Eigen::VectorXd& q, int goal, Move& out) const {
   const Eigen::VectorXd towards = goal_.configurations[static_cast<std::size_t>(goal)] - q;
   const double step = options_.extend_step_deg * kDegree, length = towards.norm();
   if (length <= step) return false;  // the snap does it
   out.action = extend_action(problem_.robot.dof(), goal);
-  out.anchor = state.anchor;
-  out.bins = state.bins;
-  Eigen::VectorXd dq(q.size());
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const auto bins = static_cast<std::int32_t>(std::lround(towards[i] * (step / length) / resolution_[i]));
-    out.bins[static_cast<std::size_t>(i)] += bins;
-    dq[i] = bins * resolution_[i];
-  }
-  out.cost = cost_of(dq);
-  return out.cost >= shortest_ && problem_.robot.within_limits(q + dq);
+  return rounded_step(state, q, towards * (step / length), out);
 }
 
 bool LatticeModel::snap(const Eigen::VectorXd& q, int goal, Move& out) const {
@@ -128,26 +171,51 @@ bool LatticeModel::snap(const Eigen::VectorXd& q, int goal, Move& out) const {
   return true;
 }
 
+bool LatticeModel::own_snap(const Eigen::VectorXd& q, Move& out) const {
+  const auto* pose = std::get_if<ReachPose>(&goal_.task);
+  if (!pose) return false;
+  IkOptions once;
+  once.starts = 1;
+  const auto solution = InverseKinematics(*kinematics_).solve(pose->X_WT, q, 0, once);
+  if (!solution) return false;
+  out.action = own_snap_action(problem_.robot.dof());
+  out.anchor = kOwnConfiguration;
+  out.bins.resize(static_cast<std::size_t>(q.size()));
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    out.bins[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(std::lround((*solution)[i] / kOwnResolution));
+  const Eigen::VectorXd child = configuration(out.anchor, out.bins);
+  out.cost = cost_of(child - q);
+  return problem_.robot.within_limits(child, kOwnResolution) && (child - q).cwiseAbs().maxCoeff() > kOwnResolution;
+}
+
 bool LatticeModel::move(const LatticeState& state, std::int32_t action, Move& out) const {
   const int n = problem_.robot.dof();
   if (action < 4 * n) return primitive(state, action, out);
   const Eigen::VectorXd q = configuration(state.anchor, state.bins);
-  const int goal = (action - 4 * n) / 2;
-  return action % 2 ? snap(q, goal, out) : extend(state, q, goal, out);
+  if (action < own_snap_action(n)) return tip_step(state, q, action - 4 * n, out);
+  if (action == own_snap_action(n)) return own_snap(q, out);
+  const int rest = action - own_snap_action(n) - 1;
+  return rest % 2 ? snap(q, rest / 2, out) : extend(state, q, rest / 2, out);
 }
 
 void LatticeModel::moves(const LatticeState& state, std::vector<Move>& out) const {
   out.clear();
+  if (state.anchor != 0) return;  // a goal configuration is an end, not a way station
   const int n = problem_.robot.dof();
   const Eigen::VectorXd q = configuration(state.anchor, state.bins);
+  const Nearness near = nearness(q);
   Move m;
-  const int primitives = near_ends(q) ? 4 * n : 2 * n;
+  const int primitives = std::min(near.to_start, near.to_goal) <= options_.short_distance ? 4 * n : 2 * n;
   for (int index = 0; index < primitives; ++index)
     if (primitive(state, index, m)) out.push_back(m);
+  if (options_.tip_step > 0)
+    for (int index = 0; index < kTipSteps; ++index)
+      if (tip_step(state, q, index, m)) out.push_back(m);
   for (int goal : nearest_goals(q, options_.extends))
     if (extend(state, q, goal, m)) out.push_back(m);
   for (int goal : nearest_goals(q, options_.snaps))
     if (snap(q, goal, m)) out.push_back(m);
+  if (near.to_goal <= options_.own_snap_distance && own_snap(q, m)) out.push_back(m);
 }
 
 }  // namespace mamo

@@ -101,7 +101,7 @@ bool ManipulationLattice::same_class(const State& a, const State& b) const {
 }
 
 bool ManipulationLattice::is_goal(const State& s) const {
-  if (s.anchor > 0 && std::all_of(s.bins.begin(), s.bins.end(), [](std::int32_t b) { return b == 0; })) return true;
+  if (s.anchor != 0) return true;  // snaps end in goals only
   return reaches(model_.goal(), model_.kinematics(), model_.configuration(s.anchor, s.bins));
 }
 
@@ -113,7 +113,7 @@ void ManipulationLattice::successors(Context& context, const State& s, std::vect
   out.clear();
   model_.moves(s, context.moves);
   for (const LatticeModel::Move& m : context.moves) {
-    const search::Cost h = m.anchor > 0 && m.anchor != s.anchor ? 0 : model_.heuristic(model_.configuration(m.anchor, m.bins));
+    const search::Cost h = m.anchor != 0 ? 0 : model_.heuristic(model_.configuration(m.anchor, m.bins));
     out.push_back({m.action, m.cost, h});
   }
 }

@@ -15,8 +15,13 @@ OptionTable SelSimOptions::table() {
   t.add("long_step_deg", l.long_step_deg, 0.1, 90, "long primitive, one joint at a time (deg)");
   t.add("short_step_deg", l.short_step_deg, 0.1, 90, "short primitive, near the start and the goal (deg)");
   t.add("short_distance", l.short_distance, 0, 10, "where short primitives act: distance to start or goal (m)");
+  t.add("tip_step", l.tip_step, 0, 1, "step of the tip along its own axes, orientation kept (m); 0: none, nor turns");
+  t.add("tip_turn_deg", l.tip_turn_deg, 0.1, 90, "turn of the tip about its own axes (deg)");
+  t.add("orientation_share", l.orientation_share, 0, 1, "of the heuristic, the rest being the grid's");
   t.add("goal_configurations", l.goal_configurations, 1, 1000, "inverse-kinematics solutions that snaps aim at");
   t.add("snaps", l.snaps, 0, 1000, "snaps tried from a state, to the nearest goal configurations");
+  t.add("own_snap_distance", l.own_snap_distance, 0, 10,
+        "where a state also snaps onto the inverse-kinematics solution found from itself: distance to goal (m)");
   t.add("extends", l.extends, 0, 1000, "steps tried from a state towards the nearest goal configurations");
   t.add("extend_step_deg", l.extend_step_deg, 0.1, 360, "length of such a step (deg)");
   t.add("heuristic_cell", l.heuristic_cell, 0.005, 0.5, "cell of the breadth-first heuristic (m)");

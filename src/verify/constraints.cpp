@@ -37,21 +37,23 @@ bool Constraints::untouchable(ObjectId id, bool by_robot) const {
   return by_robot ? !robot_may_touch(touch) : !objects_may_touch(touch);
 }
 
-bool Constraints::exempt(const Contact& raw, Grip grip) const {
-  if (raw.a == kFloor || raw.b == kFloor) return true;  // the floor catches what falls; leaving a support is judged
-  const bool about_retrieved = retrieved_ != kNoObject && (raw.a == retrieved_ || raw.b == retrieved_);
-  const ObjectId other = raw.a == retrieved_ ? raw.b : raw.a;
-  if (grip != Grip::none && about_retrieved && other == kRobot) return true;  // the gripper closes on it, holds it
-  if (!start_pairs_.contains(ordered(raw.a, raw.b))) return false;
-  return !(grip == Grip::holding && about_retrieved && cleared_.contains(other));
+bool Constraints::not_simulated(const Contact& raw, Grip grip) const {
+  if (grip == Grip::none) return false;
+  if (grip == Grip::closing) return raw.a == kRobot && raw.b == retrieved_;
+  // Held: the world names it the robot. What it stands on it may touch until they were apart once.
+  const Contact c = as_robot(raw, grip);
+  if (c.a == c.b) return true;
+  const ObjectId other = c.a == kRobot ? c.b : kNoObject;
+  return other.valid() && start_pairs_.contains(ordered(retrieved_, other)) && !cleared_.contains(other);
 }
 
 std::optional<Violation> Constraints::judge_touch(const Contact& raw, Grip grip) const {
-  if (exempt(raw, grip)) return std::nullopt;
+  if (raw.a == kFloor || raw.b == kFloor) return std::nullopt;  // it catches what falls; the support is judged
+  if (not_simulated(raw, grip)) return std::nullopt;
   const Contact c = as_robot(raw, grip);
+  if (start_pairs_.contains({c.a, c.b})) return std::nullopt;
   Violation v;
   v.value = c.depth;
-  if (c.a == kRobot && c.b == kRobot) return std::nullopt;
   if (c.a == kRobot) {
     if (!untouchable(c.b, true)) return std::nullopt;
     v.kind = ViolationKind::robot_touch;
@@ -107,9 +109,7 @@ std::optional<Violation> Constraints::judge(const World& world, const std::vecto
     if (std::optional<Violation> v = judge_touch(contact, grip)) return v;
   for (const Contact& contact : contacts) {
     if (contact.depth <= kMaxPenetration || contact.a == kFloor || contact.b == kFloor) continue;
-    // What the gripper closes on or holds is not simulated against it, nor against what it still stands on.
-    const bool about_retrieved = contact.a == retrieved_ || contact.b == retrieved_;
-    if (grip != Grip::none && about_retrieved && exempt(contact, grip)) continue;
+    if (not_simulated(contact, grip)) continue;
     const Contact c = as_robot(contact, grip);
     const bool second_is_object = !scene_[c.b].fixture();
     const ObjectId object = second_is_object && (!c.a.valid() || scene_[c.a].fixture()) ? c.b : c.a;

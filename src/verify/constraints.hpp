@@ -35,9 +35,11 @@ class Constraints {
 
  private:
   std::optional<Violation> judge_touch(const Contact& raw, Grip grip) const;
-  std::optional<Violation> judge_object(const World& world, ObjectId id, const std::vector<Eigen::Isometry3d>& X_WO) const;
+  std::optional<Violation> judge_object(const World& world, ObjectId id,
+                                        const std::vector<Eigen::Isometry3d>& X_WO) const;
   bool untouchable(ObjectId id, bool by_robot) const;
-  bool exempt(const Contact& raw, Grip grip) const;
+  /// Contacts that grasping brings with it: the gripper on the object, the held object on what it stands on.
+  bool not_simulated(const Contact& raw, Grip grip) const;
 
   const Scene& scene_;
   ObjectId reach_target_ = kNoObject;  // of a reach task: nobody may touch it

@@ -49,8 +49,9 @@ struct Solid::Impl {
 };
 
 Solid::Solid(const PlacedShape& placed, double inflation)
-    : impl_(new Impl{placed.X_BS, fcl::CollisionObjectd(std::visit(
-                                      [&](const auto& shape) { return geometry_of(shape, inflation); }, placed.shape))}) {
+    : impl_(new Impl{placed.X_BS,
+                     fcl::CollisionObjectd(std::visit([&](const auto& s) { return geometry_of(s, inflation); },
+                                                      placed.shape))}) {
   place(Eigen::Isometry3d::Identity());
 }
 Solid::~Solid() = default;

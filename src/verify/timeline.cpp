@@ -28,7 +28,8 @@ Timeline make_timeline(const Problem& problem, const Plan& plan) {
     const std::vector<int> indices = group_indices(problem.robot, segment);
     line.begin_s.push_back(offset);
     for (std::size_t k = 0; k < segment.motion.t.size(); ++k) {
-      for (std::size_t i = 0; i < indices.size(); ++i) q[indices[i]] = segment.motion.q[k][static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < indices.size(); ++i)
+        q[indices[i]] = segment.motion.q[k][static_cast<Eigen::Index>(i)];
       if (k == 0 && s > 0) continue;  // the same point as the last one of the segment before
       line.path.t.push_back(k == 0 ? 0.0 : offset + segment.motion.t[k]);
       line.path.q.push_back(q);

@@ -35,8 +35,8 @@ inline Robot made_up_robot() {
   model->name = "made_up";
   model->links.push_back({"base", JointId{-1}, {{Box{{0.3, 0.3, 0.1}}, at(0, 0, 0)}}, {}, 0});
   RandomStream random(7, {});
-  const auto add = [&](const char* name, LinkId parent, JointType type, Eigen::Vector3d axis, double lower, double upper,
-                       std::optional<Mimic> mimic, std::vector<PlacedShape> shapes) {
+  const auto add = [&](const char* name, LinkId parent, JointType type, Eigen::Vector3d axis, double lower,
+                       double upper, std::optional<Mimic> mimic, std::vector<PlacedShape> shapes) {
     Joint j;
     j.name = name;
     j.type = type;
@@ -56,12 +56,18 @@ inline Robot made_up_robot() {
     return j.child;
   };
   const double inf = std::numeric_limits<double>::infinity();
-  const LinkId lift = add("lift", LinkId{0}, JointType::prismatic, {0.2, 0.1, 1}, 0, 0.4, {}, {{Box{{0.1, 0.1, 0.2}}, at(0, 0, 0.1)}});
-  const LinkId swing = add("swing", lift, JointType::revolute, {1, -1, 0.5}, -2, 2, {}, {{Cylinder{0.04, 0.3}, lying(0.15, 0, 0)}});
-  const LinkId slide = add("slide", swing, JointType::prismatic, {1, 0, 0}, -0.1, 0.2, {}, {{Box{{0.2, 0.05, 0.05}}, at(0.1, 0, 0)}});
-  const LinkId mirror = add("mirror", slide, JointType::revolute, {0, 1, 0}, -2, 2, Mimic{JointId{1}, -0.5, 0.3}, {{Sphere{0.05}, at(0, 0.02, 0)}});
-  const LinkId spin = add("spin", mirror, JointType::continuous, {0, 0, 1}, -inf, inf, {}, {{Box{{0.1, 0.2, 0.03}}, at(0.05, 0, 0)}});
-  add("finger", spin, JointType::prismatic, {0, 1, 0}, -0.3, 0.3, Mimic{JointId{2}, 1.0, 0.05}, {{Box{{0.05, 0.02, 0.02}}, at(0.1, 0, 0)}});
+  const LinkId lift =
+      add("lift", LinkId{0}, JointType::prismatic, {0.2, 0.1, 1}, 0, 0.4, {}, {{Box{{0.1, 0.1, 0.2}}, at(0, 0, 0.1)}});
+  const LinkId swing =
+      add("swing", lift, JointType::revolute, {1, -1, 0.5}, -2, 2, {}, {{Cylinder{0.04, 0.3}, lying(0.15, 0, 0)}});
+  const LinkId slide =
+      add("slide", swing, JointType::prismatic, {1, 0, 0}, -0.1, 0.2, {}, {{Box{{0.2, 0.05, 0.05}}, at(0.1, 0, 0)}});
+  const LinkId mirror = add("mirror", slide, JointType::revolute, {0, 1, 0}, -2, 2, Mimic{JointId{1}, -0.5, 0.3},
+                            {{Sphere{0.05}, at(0, 0.02, 0)}});
+  const LinkId spin =
+      add("spin", mirror, JointType::continuous, {0, 0, 1}, -inf, inf, {}, {{Box{{0.1, 0.2, 0.03}}, at(0.05, 0, 0)}});
+  add("finger", spin, JointType::prismatic, {0, 1, 0}, -0.3, 0.3, Mimic{JointId{2}, 1.0, 0.05},
+      {{Box{{0.05, 0.02, 0.02}}, at(0.1, 0, 0)}});
   add("flap", spin, JointType::revolute, {0, 1, 0}, -1, 1, {}, {{Box{{0.05, 0.02, 0.02}}, at(0, 0.1, 0)}});
   const LinkId tool = add("tool", spin, JointType::fixed, {1, 0, 0}, 0, 0, {}, {});
   Robot robot;

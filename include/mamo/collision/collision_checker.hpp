@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <memory>
 #include <vector>
 
@@ -13,17 +14,18 @@ namespace mamo {
 
 struct CollisionOptions {
   /// No collision point of the arm moves further than this between two checked configurations (m).
-  double edge_step = 0.01;
-  /// Objects and fixtures are inflated by this when an edge is classified: half the edge step, plus what the
-  /// simulator calls contact (m). 0 inflates nothing.
-  double padding = 0.0055;
+  double edge_step = 0.002;
+  /// Watched objects are inflated by this when an edge is classified: at least half the edge step plus what the
+  /// simulator calls contact (m). What is forbidden is not inflated: a start or a goal may be close to a wall, and
+  /// the fine step is what keeps the arm out of it between two checks.
+  double padding = 0.003;
 };
 
 /// What a configuration or an edge hits. Bodies the caller asked about, in order of id.
 struct CollisionReport {
-  bool self = false;                // two links of the robot (first_self names them)
+  bool self = false;  // two links of the robot (first_self names them)
   std::pair<LinkId, LinkId> first_self;
-  std::vector<ObjectId> touched;    // sorted, unique
+  std::vector<ObjectId> touched;  // sorted, unique
   /// Of an edge: the smallest checked parameter (0 at q0, 1 at q1) at which a watched object is touched; else 2.
   double first_touch = 2;
   bool free() const { return !self && touched.empty(); }
@@ -47,14 +49,14 @@ class CollisionChecker {
   /// stop_at_first: return as soon as anything is hit.
   void check(const Eigen::VectorXd& q, const ObjectSet& against, bool stop_at_first, CollisionReport& out);
 
-  /// The straight edge from q0 to q1 (linear in joints), coarse to fine, both ends included; padded.
+  /// The straight edge from q0 to q1 (linear in joints), coarse to fine, both ends included.
   /// Self-collision and bodies in `forbidden` end the check at once (report.self, or touched holds that
-  /// body, and the return value is false). Bodies in `watched` are collected in report.touched.
+  /// body, and the return value is false). Bodies in `watched` are padded and collected in report.touched.
   bool check_edge(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const ObjectSet& forbidden,
                   const ObjectSet& watched, CollisionReport& out);
 
   /// The parameters in [0, 1] that check_edge looks at, ascending.
-  std::vector<double> edge_samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1) const;
+  std::vector<double> edge_samples(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1);
 
   /// An object rigidly attached to a link counts as robot from now on (X_LO: object in link), no longer as an
   /// object, and is tested against the links that self_pairs has for that link; detach ends it.
@@ -64,7 +66,7 @@ class CollisionChecker {
   /// Objects overlapping one another by more than `tolerance` (m) at the current state; pairs a < b.
   std::vector<std::pair<ObjectId, ObjectId>> overlapping_objects(double tolerance);
 
-  /// Configurations checked so far.
+  /// Configurations at which the arm was posed so far; an edge proven free from its middle poses it once.
   std::int64_t checks() const;
   const CollisionOptions& options() const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <vector>
 
 #include "mamo/model/robot.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -26,8 +27,8 @@ class InverseKinematics {
 
   /// One solution inside the joint limits, starting at `seed_q`, restarting from a stream keyed by
   /// (seed, attempt). Continuous joints come back within pi of seed_q.
-  std::optional<Eigen::VectorXd> solve(const Eigen::Isometry3d& X_WT, const Eigen::VectorXd& seed_q,
-                                       std::uint64_t seed, const IkOptions& options = {}) const;
+  std::optional<Eigen::VectorXd> solve(const Eigen::Isometry3d& X_WT, const Eigen::VectorXd& seed_q, std::uint64_t seed,
+                                       const IkOptions& options = {}) const;
 
   /// Up to `count` distinct solutions for which `accept` holds (pass {} for all), in order of discovery.
   std::vector<Eigen::VectorXd> solve_many(const Eigen::Isometry3d& X_WT, const Eigen::VectorXd& seed_q,

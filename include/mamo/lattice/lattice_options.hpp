@@ -11,8 +11,12 @@ struct LatticeOptions {
   double long_step_deg = 12.0;         // long primitive, each joint alone, both ways
   double short_step_deg = 4.0;         // short primitive, near the start or the goal
   double short_distance = 0.15;        // m of heuristic distance within which short primitives act
+  double tip_step = 0.06;              // m, of the tip along its own axes at fixed orientation; 0: no tip steps
+  double tip_turn_deg = 15.0;          // of the tip about its own axes (deg)
+  double orientation_share = 0.5;      // of the heuristic of a pose goal, the rest is the grid's
   int goal_configurations = 12;        // inverse-kinematics solutions that snap motions aim at
   int snaps = 3;                       // nearest goal configurations tried from a state
+  double own_snap_distance = 0.2;      // m of heuristic distance within which a state tries its own solution
   double extend_step_deg = 25.0;       // multi-joint step towards a goal configuration (length in joint space)
   int extends = 2;                     // nearest goal configurations stepped towards; 0: none
   double heuristic_cell = 0.03;        // m

@@ -16,7 +16,9 @@
 namespace mamo {
 
 /// Exact key. The configuration is base(anchor) + bins * resolution; anchor 0 is the start configuration,
-/// anchor k the k-th goal configuration (reached by a snap, bins then zero).
+/// anchor k the k-th goal configuration (reached by a snap, bins then zero), and with kOwnConfiguration the bins are
+/// the joint vector itself in 1e-6 rad or m (reached by an inverse-kinematics snap).
+inline constexpr std::int32_t kOwnConfiguration = -1;
 struct LatticeState {
   std::int32_t anchor = 0;
   std::vector<std::int32_t> bins;      // one per group joint
@@ -33,9 +35,15 @@ struct BannedEdge {
 
 /// Built once per query, shared by all planning iterations: goal, heuristic, actions. Immutable.
 ///
-/// Actions of a configuration, in this order: long primitives, short primitives (near start or goal), steps of
+/// Actions of a configuration, in this order: long primitives, short primitives (near start or goal), steps of the
+/// tip along its own axes at fixed orientation and about them at a fixed point (Jacobian, rounded to bins), steps of
 /// several joints towards the nearest goal configurations (rounded to bins), snaps onto the nearest goal
-/// configurations. They depend on the configuration, the goal and the seed only (Theorem 5.2).
+/// configurations, and near the goal a snap onto the inverse-kinematics solution that is found from the configuration
+/// itself. They depend on the configuration, the goal and the seed only (Theorem 5.2).
+/// Heuristic of a pose goal: (1 - a) times that of the grid plus a times the least joint motion that turns the tip's
+/// orientation to that of the goal, angle / sqrt(n) for n joints (|turn| <= sum |dq_i| <= sqrt(n) |dq|). Both are
+/// consistent, and so is their mean; a is orientation_share. Of a joint goal: the larger of grid and joint distance.
+///
 /// Cost: length in joint space (Euclidean, rad and m alike), in 1/1000, rounded up.
 class LatticeModel {
  public:
@@ -62,10 +70,16 @@ class LatticeModel {
 
  private:
   bool primitive(const LatticeState& state, int index, Move& out) const;
+  bool tip_step(const LatticeState& state, const Eigen::VectorXd& q, int index, Move& out) const;
+  bool rounded_step(const LatticeState& state, const Eigen::VectorXd& q, const Eigen::VectorXd& dq, Move& out) const;
   bool extend(const LatticeState& state, const Eigen::VectorXd& q, int goal, Move& out) const;
   bool snap(const Eigen::VectorXd& q, int goal, Move& out) const;
+  bool own_snap(const Eigen::VectorXd& q, Move& out) const;
   std::vector<int> nearest_goals(const Eigen::VectorXd& q, int count) const;
-  bool near_ends(const Eigen::VectorXd& q) const;
+  struct Nearness {
+    double to_start, to_goal;  // m, of the tracked point; infinite where the grid knows no way
+  };
+  Nearness nearness(const Eigen::VectorXd& q) const;
   search::Cost cost_of(const Eigen::VectorXd& dq) const;
 
   const Problem& problem_;

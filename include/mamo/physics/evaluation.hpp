@@ -1,7 +1,7 @@
 // One motion in physics, judged: drive the arm along a joint path, stop at the first violation, let settle.
 #pragma once
 
-#include <functional>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,7 +19,7 @@ struct Evaluation {
   bool cancelled = false;              // stopped from outside: nothing else is meaningful
   std::optional<Violation> violation;  // the first one
   WorldState state;                    // at the end, quantised; objects not present keep their poses
-  double settle_s = 0;                 // waited after the last point until all rested (whole steps)
+  double settle_s = 0;                 // waited after the last point until all rested: whole steps
   std::vector<Interaction> interactions;  // sorted by (first time, a, b): robot-object and object-object
   bool second_order = false;           // some interaction is between two objects
   int steps = 0;
@@ -30,6 +30,7 @@ struct EvaluationRequest {
   const WorldState* from = nullptr;
   const TimedPath* motion = nullptr;
   ObjectId untouchable = kNoObject;    // the task's target: touching it is a violation whatever its constraints
+  ObjectId grasped = kNoObject;        // the arm passes through it: a gripper closing on it
   ObjectId held = kNoObject;           // attached to held_link from the start on
   LinkId held_link;
   StopSource* stop = nullptr;          // may be null
@@ -37,6 +38,13 @@ struct EvaluationRequest {
 };
 
 /// One per worker: owns a World and the constraint watch.
+///
+/// The motion takes round(duration / step) steps, the arm at motion.at(k * step) after step k, and ends at its
+/// last point; then the arm stays until every object has rested for kRestTime, at most settle_time. The first step
+/// that violates a constraint ends the evaluation: of several violations in one step the first by kind, then by
+/// ids is reported. Tilt, displacement and support refer to the scene's start, whatever state the motion starts
+/// from; pairs of bodies that touch there (kTouchDistance) may touch for ever. Objects that neither the robot nor
+/// something it moved has touched end exactly where they began.
 class Evaluator {
  public:
   Evaluator(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene);
@@ -49,5 +57,11 @@ class Evaluator {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Bodies closer than this at the scene's start touch there (m).
+inline constexpr double kTouchDistance = 0.001;
+/// An object moves when it is further than this from where it began (m) or faster than that (m/s).
+inline constexpr double kMovedDistance = 1e-4;
+inline constexpr double kMovedSpeed = 1e-3;
 
 }  // namespace mamo

@@ -12,17 +12,26 @@
 
 namespace mamo {
 
-/// Two bodies with at least one contact point of distance <= 0. a < b by id value, kRobot and kFloor
-/// included; depth = the deepest penetration (m, >= 0). Contacts come sorted by (a, b), one per pair.
+/// Two bodies that touch: some contact point of distance <= 0, or one that carries a force. a < b by id value,
+/// kRobot and kFloor included; depth = the deepest penetration (m, >= 0). Contacts come sorted by (a, b), one
+/// per pair.
 struct Contact {
   ObjectId a, b;
   double depth = 0;
 };
 
 /// One instance per worker. After reset() what follows is a pure function of the arguments of reset() and of
-/// the steps since: bit for bit what a freshly made world computes (PHYSICS.md section 3).
+/// the calls since: bit for bit what a freshly made world computes, and objects that nothing comes near change
+/// nothing by being present.
+///
+/// Bullet gives the shapes, the contact points and the sequential-impulse solver; the loop around them is ours,
+/// so that bodies are visited in order of id, sleep until something that moves comes within a millimetre or two,
+/// and nothing is kept that reset() does not clear. A floor at z = 0 (lower where the scene starts lower) catches
+/// what falls. Moving links are kinematic: they push with whatever force it takes and are pushed by nothing.
+/// Fixtures, still links and immovables without mass are static.
 class World {
  public:
+  /// The scene is copied as far as needed.
   World(std::shared_ptr<const ForwardKinematics> kinematics, const Scene& scene);
   ~World();
   World(const World&) = delete;
@@ -49,16 +58,25 @@ class World {
 
   /// From now on until reset() there is no contact between the robot and this object (a gripper closing on it).
   void ignore_robot(ObjectId id);
+  /// As if something had come near: the object feels gravity and contacts until it has rested for kSleepTime.
+  void wake(ObjectId id);
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
+
+  /// Pairs of bodies (a < b, sorted; objects, fixtures and the floor, not the robot; at least one an object) of
+  /// which `state` puts the surfaces closer than `tolerance` (m). Ends what reset() began: call reset() next.
+  std::vector<std::pair<ObjectId, ObjectId>> touching(const WorldState& state, double tolerance);
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Object whose linear speed (m/s) and angular speed (rad/s) are below these for kRestSteps steps rests.
+/// An object whose linear speed (m/s) and angular speed (rad/s) are below these for kRestTime (s) rests. The
+/// world itself puts it to sleep, with all it touches, after kSleepTime (s) of rest away from the moving arm.
 inline constexpr double kRestSpeed = 0.01;
 inline constexpr double kRestAngularSpeed = 0.05;
+inline constexpr double kRestTime = 0.1;
+inline constexpr double kSleepTime = 0.5;
 
 }  // namespace mamo

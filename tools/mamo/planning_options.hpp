@@ -1,0 +1,31 @@
+// Options that every planning subcommand shares: planner, limits, threads, seed, planner-specific settings.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "console.hpp"
+
+#include "mamo/model/planner.hpp"
+
+namespace mamo::tool {
+
+struct PlanningOptions {
+  std::string planner = "selsim";
+  PlanOptions plan;
+  double time_limit_s = 60;
+  std::int64_t memory_limit_mb = 0;  // 0: none
+  bool no_smooth = false;
+  std::string config;
+  std::vector<std::string> settings;  // key=value as given
+};
+
+void add_planning_options(CLI::App& command, PlanningOptions& options);
+
+/// After parsing: reads --config (the command line wins over it), checks every planner-specific name and fills
+/// plan.set. Options of other planners in the file are passed over, so that one file can serve several planners.
+Status complete(CLI::App& command, PlanningOptions& options, Console& console);
+
+/// Planner-specific options of all planners as a help text, or "" when there are none.
+std::string describe_planner_options();
+
+}  // namespace mamo::tool
