@@ -22,16 +22,16 @@ struct VirtualRun {
   double seconds = 0;       // from begin to the end of the search
   double busy_s = 0;        // evaluations, cancelled ones included, summed over workers
   double used_s = 0;        // of it: committed
-  double stall_s = 0;       // no outcome to commit, and the needed one being evaluated since it became needed
-  double idle_s = 0;        // workers without a job, summed
+  double stall_s = 0;       // the order waited for an evaluation
+  double idle_s = 0;        // workers without an evaluation, summed
   ParallelStats stats;
   std::uint64_t order_hash = 0;
   double efficiency() const { return busy_s > 0 ? used_s / busy_s : 1; }
 };
 
 /// Work and span of the serial search: sum of the committed evaluations, and the heaviest chain of them in which each
-/// begins at the state that the one before led to. With P workers no schedule that commits these evaluations can
-/// take less than max(work / P, span).
+/// begins at the state that the one before led to. No schedule that keeps the serial order takes less than work / P.
+/// Span bounds those that learn of a state by the edge that closed it; runahead may have met it earlier by another.
 struct WorkAndSpan {
   struct Commit {
     std::int32_t parent = -1;  // commit that led to the edge's state; -1: the start
@@ -80,9 +80,12 @@ class VirtualSearch {
       : domain_(domain),
         seconds_(seconds),
         costs_(costs),
+        parallel_(parallel),
         table_(domain),
-        scheduler_(domain, table_, options, parallel, workers),
-        workers_(static_cast<std::size_t>(workers)) {}
+        scheduler_(domain, table_, options, parallel_, workers),
+        workers_(static_cast<std::size_t>(workers)) {
+    parallel_.trace = &trace_;
+  }
 
   VirtualRun run() {
     const StateId start = table_.intern(domain_.start());
@@ -103,6 +106,9 @@ class VirtualSearch {
     run_.stats = scheduler_.stats();
     run_.used_s = run_.stats.used_s;
     run_.order_hash = scheduler_.result().order_hash;
+    for (const TraceJob& job : trace_.jobs) {
+      if (job.commit >= 0) run_.stall_s += std::max(0.0, job.done - job.needed);
+    }
     return run_;
   }
 
@@ -164,6 +170,8 @@ class VirtualSearch {
   const D& domain_;
   Seconds seconds_;
   VirtualCosts costs_;
+  Trace trace_;
+  ParallelOptions parallel_;
   StateTable<D> table_;
   Sched scheduler_;
   std::vector<Worker> workers_;
