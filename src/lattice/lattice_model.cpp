@@ -200,6 +200,17 @@ int LatticeModel::nearest_link(const GoalChain& chain, const Eigen::VectorXd& q)
   return std::min<int>(4095, static_cast<int>(nearest - chain.q.begin()));
 }
 
+std::vector<int> LatticeModel::nearest_chains(const Eigen::VectorXd& q, int count) const {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < chains_.size(); ++k)
+    order.emplace_back((chains_[k].q[static_cast<std::size_t>(nearest_link(chains_[k], q))] - q).norm(), static_cast<int>(k));
+  std::sort(order.begin(), order.end());
+  std::vector<int> nearest;
+  for (const auto& [distance, k] : order)
+    if (static_cast<int>(nearest.size()) < count) nearest.push_back(k);
+  return nearest;
+}
+
 bool LatticeModel::join(const Eigen::VectorXd& q, int chain, int link, Move& out) const {
   if (chain >= static_cast<int>(chains_.size())) return false;
   const GoalChain& c = chains_[static_cast<std::size_t>(chain)];
@@ -257,8 +268,9 @@ void LatticeModel::moves(const LatticeState& state, std::vector<Move>& out) cons
     if (extend(state, q, goal, m)) out.push_back(m);
   for (int goal : nearest_goals(q, options_.snaps))
     if (snap(q, goal, m)) out.push_back(m);
-  for (std::size_t k = 0; k < chains_.size(); ++k)
-    if (join(q, static_cast<int>(k), nearest_link(chains_[k], q), m)) out.push_back(m);
+  const bool at_start = std::all_of(state.bins.begin(), state.bins.end(), [](std::int32_t b) { return b == 0; });
+  for (int chain : nearest_chains(q, at_start ? static_cast<int>(chains_.size()) : options_.joins))
+    if (join(q, chain, nearest_link(chains_[static_cast<std::size_t>(chain)], q), m)) out.push_back(m);
   if (near.to_goal <= options_.own_snap_distance && own_snap(q, m)) out.push_back(m);
 }
 

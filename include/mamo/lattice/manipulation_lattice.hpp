@@ -81,6 +81,7 @@ class LatticeModel {
   bool extend(const LatticeState& state, const Eigen::VectorXd& q, int goal, Move& out) const;
   bool snap(const Eigen::VectorXd& q, int goal, Move& out) const;
   bool join(const Eigen::VectorXd& q, int chain, int link, Move& out) const;
+  std::vector<int> nearest_chains(const Eigen::VectorXd& q, int count) const;
   int nearest_link(const GoalChain& chain, const Eigen::VectorXd& q) const;
   bool own_snap(const Eigen::VectorXd& q, Move& out) const;
   std::vector<int> nearest_goals(const Eigen::VectorXd& q, int count) const;
