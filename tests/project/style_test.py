@@ -20,6 +20,8 @@ BANNED = [
      "no clock decides a result: only common/stop reads one",
      {"src/common/common.cpp": "StopSource, the one deadline",
       "include/mamo/common/stopwatch.hpp": "wall times that are reported and never read by an algorithm",
+      "src/common/cpu_time.cpp": "CPU time of the thread, reported likewise",
+      "include/mamo/search/parallel_search.hpp": "time stamps of the trace, written and never read by the search",
       "src/physics/evaluation.cpp": "Evaluator::simulation_s, reported and never read by an algorithm",
       "src/search/toy_domain.cpp": "scripted delays: it waits, and reads no result off the clock",
       "src/experiments/": "when a run started, in its record",
