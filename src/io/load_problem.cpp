@@ -91,6 +91,8 @@ Result<Problem> load_problem(const std::string& path, const LoadOptions& options
       for (const YamlValue& object : objects->items) places.push_back({object.line, object.column});
   }
   if (complaints.any()) return complaints.first();
+  if (!options.request.empty())
+    return Error{"--request goes with a MotionBenchMaker scene, " + one_line(path) + " is none", ErrorKind::usage};
   if (Status s = check_globs(options, problem.scene); !s) return s.error();
   if (Status s = change_task(options.task, problem); !s) return s.error();
   protect_target(problem);

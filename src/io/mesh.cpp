@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "io/convex_hull.hpp"
-
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {

@@ -14,6 +14,9 @@ std::int32_t tip_action(int dof, int index) { return 4 * dof + index; }
 std::int32_t own_snap_action(int dof) { return 4 * dof + kTipSteps; }
 std::int32_t extend_action(int dof, int goal) { return own_snap_action(dof) + 1 + 2 * goal; }
 std::int32_t snap_action(int dof, int goal) { return own_snap_action(dof) + 2 + 2 * goal; }
+// Then the joining of link l of chain c, 4096 links a chain at most.
+constexpr std::int32_t kFirstJoin = 1 << 20;
+std::int32_t join_action(int chain, int link) { return kFirstJoin + (chain << 12) + link; }
 
 constexpr double kOwnResolution = 1e-6;  // rad or m: unit of bins under kOwnConfiguration
 
@@ -24,12 +27,13 @@ std::int32_t steps_of(double step, double resolution) {
 }  // namespace
 
 LatticeModel::LatticeModel(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
-                           const LatticeOptions& options, ReachGoal goal, const TrackedPoint& point,
-                           const ObjectSet& walls)
+                           const LatticeOptions& options, ReachGoal goal, std::vector<GoalChain> chains,
+                           const TrackedPoint& point, const ObjectSet& walls)
     : problem_(problem),
       kinematics_(std::move(kinematics)),
       options_(options),
       goal_(std::move(goal)),
+      chains_(std::move(chains)),
       point_(point),
       grid_(*kinematics_, point, problem.scene, walls, goal_.p_W, goal_.radius, options.heuristic_cell) {
   const Robot& robot = problem.robot;
@@ -188,10 +192,59 @@ bool LatticeModel::own_snap(const Eigen::VectorXd& q, Move& out) const {
   return problem_.robot.within_limits(child, kOwnResolution) && (child - q).cwiseAbs().maxCoeff() > kOwnResolution;
 }
 
+int LatticeModel::nearest_link(const GoalChain& chain, const Eigen::VectorXd& q) const {
+  const auto closer = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return (a - q).squaredNorm() < (b - q).squaredNorm();
+  };
+  const auto nearest = std::min_element(chain.q.begin(), chain.q.end() - 1, closer);
+  return std::min<int>(4095, static_cast<int>(nearest - chain.q.begin()));
+}
+
+std::vector<int> LatticeModel::nearest_chains(const Eigen::VectorXd& q, int count) const {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < chains_.size(); ++k)
+    order.emplace_back((chains_[k].q[static_cast<std::size_t>(nearest_link(chains_[k], q))] - q).norm(), static_cast<int>(k));
+  std::sort(order.begin(), order.end());
+  std::vector<int> nearest;
+  for (const auto& [distance, k] : order)
+    if (static_cast<int>(nearest.size()) < count) nearest.push_back(k);
+  return nearest;
+}
+
+bool LatticeModel::join(const Eigen::VectorXd& q, int chain, int link, Move& out) const {
+  if (chain >= static_cast<int>(chains_.size())) return false;
+  const GoalChain& c = chains_[static_cast<std::size_t>(chain)];
+  if (link + 1 >= static_cast<int>(c.q.size())) return false;  // the last one is a goal: a snap
+  out.action = join_action(chain, link);
+  out.anchor = c.goal + 1;
+  out.bins.assign(static_cast<std::size_t>(q.size()), 0);
+  const Eigen::VectorXd* from = &q;
+  double length = 0;
+  for (std::size_t k = static_cast<std::size_t>(link); k < c.q.size(); from = &c.q[k++]) length += (c.q[k] - *from).norm();
+  out.cost = std::max<search::Cost>(1, static_cast<search::Cost>(std::ceil(1000.0 * length)));
+  return true;
+}
+
+std::vector<Eigen::VectorXd> LatticeModel::legs(const LatticeState& state, std::int32_t action) const {
+  Move m;
+  if (!move(state, action, m)) return {};
+  if (action < kFirstJoin) return {configuration(m.anchor, m.bins)};
+  const GoalChain& chain = chains_[static_cast<std::size_t>((action - kFirstJoin) >> 12)];
+  std::vector<Eigen::VectorXd> legs;
+  Eigen::VectorXd last = configuration(state.anchor, state.bins);
+  for (auto q = chain.q.begin() + ((action - kFirstJoin) & 4095); q != chain.q.end(); ++q) {
+    if ((*q - last).cwiseAbs().maxCoeff() < 1e-12) continue;  // standing on the link already
+    legs.push_back(*q);
+    last = *q;
+  }
+  return legs;
+}
+
 bool LatticeModel::move(const LatticeState& state, std::int32_t action, Move& out) const {
   const int n = problem_.robot.dof();
   if (action < 4 * n) return primitive(state, action, out);
   const Eigen::VectorXd q = configuration(state.anchor, state.bins);
+  if (action >= kFirstJoin) return join(q, (action - kFirstJoin) >> 12, (action - kFirstJoin) & 4095, out);
   if (action < own_snap_action(n)) return tip_step(state, q, action - 4 * n, out);
   if (action == own_snap_action(n)) return own_snap(q, out);
   const int rest = action - own_snap_action(n) - 1;
@@ -215,6 +268,9 @@ void LatticeModel::moves(const LatticeState& state, std::vector<Move>& out) cons
     if (extend(state, q, goal, m)) out.push_back(m);
   for (int goal : nearest_goals(q, options_.snaps))
     if (snap(q, goal, m)) out.push_back(m);
+  const bool at_start = std::all_of(state.bins.begin(), state.bins.end(), [](std::int32_t b) { return b == 0; });
+  for (int chain : nearest_chains(q, at_start ? static_cast<int>(chains_.size()) : options_.joins))
+    if (join(q, chain, nearest_link(chains_[static_cast<std::size_t>(chain)], q), m)) out.push_back(m);
   if (near.to_goal <= options_.own_snap_distance && own_snap(q, m)) out.push_back(m);
 }
 

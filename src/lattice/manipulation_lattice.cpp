@@ -130,18 +130,24 @@ search::EdgeOutcome<LatticeState> ManipulationLattice::evaluate(Context& context
   LatticeModel::Move m;
   if (!model_.move(s, action, m) || (!banned_.empty() && banned_.contains({s, action}))) return outcome;
   const std::int64_t checks = context.evaluator->collision_checks();
-  const EdgeResult result =
-      context.evaluator->evaluate(model_.configuration(s.anchor, s.bins), model_.configuration(m.anchor, m.bins),
-                                  bodies_, world_of(s), stop_, cancel);
-  outcome.cancelled = result.cancelled;
-  outcome.valid = result.valid;
-  outcome.charge = result.simulated;
+  WorldState world = world_of(s);
+  Eigen::VectorXd from = model_.configuration(s.anchor, s.bins);
+  outcome.valid = true;
+  for (const Eigen::VectorXd& to : model_.legs(s, action)) {
+    EdgeResult result = context.evaluator->evaluate(from, to, bodies_, world, stop_, cancel);
+    outcome.cancelled = result.cancelled;
+    outcome.valid = result.valid;
+    outcome.charge += result.simulated;
+    if (result.violation) outcome.tag = failure_tag(result.violation->kind, result.simulated);
+    if (!outcome.valid) break;
+    world = std::move(result.state);
+    from = to;
+  }
   outcome.work = context.evaluator->collision_checks() - checks;
-  if (result.violation) outcome.tag = failure_tag(result.violation->kind, result.simulated);
   if (!outcome.valid) return outcome;
   outcome.child.anchor = m.anchor;
   outcome.child.bins = std::move(m.bins);
-  for (ObjectId id : ids_) outcome.child.objects.push_back(result.state[id]);
+  for (ObjectId id : ids_) outcome.child.objects.push_back(world[id]);
   return outcome;
 }
 

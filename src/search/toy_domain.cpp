@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "mamo/common/random.hpp"
+#include "mamo/search/toy_clutter.hpp"
 
 namespace mamo::search {
 namespace {
@@ -18,26 +19,6 @@ enum Purpose : std::uint64_t { kTopology = 1, kGoals, kOutcome, kLength };
 RandomStream edge_stream(std::uint64_t seed, Purpose purpose, const ToyState& s, std::int32_t action) {
   return RandomStream(seed, {purpose, static_cast<std::uint64_t>(s.node), static_cast<std::uint64_t>(s.label),
                              static_cast<std::uint64_t>(action)});
-}
-
-using Clock = std::chrono::steady_clock;
-
-/// Spends `ms`; false when stopped before. Looks every half millisecond.
-bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel, StopSource* stop) {
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double, std::milli>(ms));
-  while (Clock::now() < end) {
-    if (cancel && cancel->load(std::memory_order_relaxed)) return false;
-    if (stop && stop->stopped()) return false;
-    const auto slice = std::min(end, Clock::now() + std::chrono::microseconds(500));
-    if (delay == ToyDelay::sleep) {
-      std::this_thread::sleep_until(slice);
-    } else {
-      while (Clock::now() < slice) {
-      }
-    }
-  }
-  return true;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace mamo {
 
 struct SelSimOptions {
-  double weight = 10;               // when --weight is not given
+  double weight = 100;              // when --weight is not given
   std::string immovables = "known";  // known | discovered (ALGORITHMS.md, "What the search knows")
   int max_iterations = 200;         // planning iterations
   LatticeOptions lattice;

@@ -32,7 +32,11 @@ void SelSimQuery::prepare() {
   const TrackedPoint point = tracked_point(*kinematics_);
   ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator_->collision(), walls, options_.seed,
                                    settings_.lattice.goal_configurations);
-  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), point, walls);
+  std::vector<GoalChain> chains =
+      make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations, options_.seed,
+                       settings_.lattice.chains, context_.stop);
+  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), std::move(chains),
+                                          point, walls);
 }
 
 SelSimQuery::Search SelSimQuery::search_once() {
@@ -65,10 +69,15 @@ SelSimQuery::Search SelSimQuery::search_once() {
   return found;
 }
 
-std::vector<Eigen::VectorXd> SelSimQuery::configurations_of(const Search& found) const {
-  std::vector<Eigen::VectorXd> path{problem_.q_start};
-  for (const auto& step : found.path) path.push_back(model_->configuration(step.child.anchor, step.child.bins));
-  return path;
+SelSimQuery::Candidate SelSimQuery::candidate_of(const Search& found) const {
+  Candidate candidate;
+  candidate.path.push_back(problem_.q_start);
+  for (std::size_t k = 0; k < found.path.size(); ++k)
+    for (Eigen::VectorXd& q : model_->legs(found.path[k].parent, found.path[k].action)) {
+      candidate.path.push_back(std::move(q));
+      candidate.step_of_leg.push_back(static_cast<int>(k));
+    }
+  return candidate;
 }
 
 Plan SelSimQuery::plan_of(const Track& track) const {
@@ -95,7 +104,7 @@ bool SelSimQuery::judged(Candidate& candidate) {
 bool SelSimQuery::accept(const Search& found) {
   const Stopwatch watch;
   const std::int64_t checks = evaluator_->collision_checks();
-  Candidate raw{configurations_of(found), {}, {}};
+  Candidate raw = candidate_of(found);
   raw.track = track(problem_, *evaluator_, raw.path, everything_, context_.stop);
   Candidate smooth;
   if (raw.track.ok && options_.smooth) {
@@ -108,7 +117,8 @@ bool SelSimQuery::accept(const Search& found) {
   result_.stats.collision_checks += evaluator_->collision_checks() - checks;
   if (raw.track.stopped) return false;
   if (!raw.track.ok) {
-    learn(raw.track.interactions, *raw.track.violation, raw.track.failed_edge, found);
+    learn(raw.track.interactions, *raw.track.violation,
+          raw.step_of_leg[static_cast<std::size_t>(raw.track.failed_edge)], found);
     return false;
   }
   if (!result_.found) result_.stats.found_s = watch_.seconds();
@@ -125,11 +135,12 @@ bool SelSimQuery::accept(const Search& found) {
   const Violation& violation = raw.verdict.findings.front().violation;
   const std::vector<double>& t = raw.track.motion.t;
   const auto point = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), violation.time_s) - t.begin());
-  learn(raw.verdict.interactions, violation, raw.track.edge_of_point[std::min(point, t.size() - 1)], found);
+  const int leg = raw.track.edge_of_point[std::min(point, t.size() - 1)];
+  learn(raw.verdict.interactions, violation, leg < 0 ? 0 : raw.step_of_leg[static_cast<std::size_t>(leg)], found);
   return false;
 }
 
-void SelSimQuery::learn(const std::vector<Interaction>& interactions, const Violation& violation, int edge,
+void SelSimQuery::learn(const std::vector<Interaction>& interactions, const Violation& violation, int step,
                         const Search& found) {
   ++result_.stats.failures["replay_" + std::string(to_string(violation.kind))];
   const ObjectId id = relevant_object(interactions, violation.object, relevant_, problem_.scene);
@@ -141,8 +152,8 @@ void SelSimQuery::learn(const std::vector<Interaction>& interactions, const Viol
   }
   ++result_.stats.failures["replay_mismatch"];
   if (found.path.empty()) return;
-  const auto& step = found.path[static_cast<std::size_t>(std::clamp<int>(edge, 0, static_cast<int>(found.path.size()) - 1))];
-  banned_.insert({step.parent, step.action});
+  const auto& refuted = found.path[static_cast<std::size_t>(step)];
+  banned_.insert({refuted.parent, refuted.action});
 }
 
 PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {

@@ -28,17 +28,18 @@ class SelSimQuery {
   using Search = search::SearchResult<LatticeState>;
   struct Candidate {
     std::vector<Eigen::VectorXd> path;
+    std::vector<int> step_of_leg;  // which step of the search result each piece of the path belongs to
     Track track;
     Verdict verdict;  // of the judge
   };
 
   void prepare();
   Search search_once();
-  std::vector<Eigen::VectorXd> configurations_of(const Search& found) const;
+  Candidate candidate_of(const Search& found) const;
   /// Tracks, smooths and judges a found path. True: the result is complete. False: learn() has been told.
   bool accept(const Search& found);
   bool judged(Candidate& candidate);
-  void learn(const std::vector<Interaction>& interactions, const Violation& violation, int edge, const Search& found);
+  void learn(const std::vector<Interaction>& interactions, const Violation& violation, int step, const Search& found);
   Plan plan_of(const Track& track) const;
   PlanResult& finish(PlanStatus status, std::string reason);
   PlanResult& no_path(const Search& search);

@@ -91,7 +91,7 @@ TEST_F(LoadProblem, NumbersOverrideTheProfileAndAnObjectsOwnOverrideBoth) {
   std::string text =
       problem_with("{profile: full}", "{profile: full, max_speed: 0.5, max_tilt_deg: 10, max_displacement: .inf}");
   text.replace(text.find("movable: true}"), 14, "movable: true, constraints: {max_tilt: 0.2, touch: robot}}");
-  const InteractionConstraints& c = load(text).scene[ObjectId{1}].constraints;
+  const InteractionConstraints c = load(text).scene[ObjectId{1}].constraints;
   EXPECT_EQ(c.max_speed, 0.5);
   EXPECT_EQ(c.max_tilt, 0.2);
   EXPECT_FALSE(c.may_leave_support) << "from the profile";

@@ -32,9 +32,10 @@ struct LatticeKit {
     for (ObjectId id : all.forbidden.ids())
       if (!p.scene[id].movable()) walls.insert(id);
     const TrackedPoint point = tracked_point(*kinematics);
-    model = std::make_unique<LatticeModel>(
-        p, kinematics, options,
-        make_reach_goal(p, *kinematics, point, evaluator.collision(), walls, 1, options.goal_configurations), point, walls);
+    ReachGoal goal = make_reach_goal(p, *kinematics, point, evaluator.collision(), walls, 1, options.goal_configurations);
+    std::vector<GoalChain> chains =
+        make_goal_chains(p, evaluator.collision(), walls, goal.configurations, 1, options.chains, nullptr);
+    model = std::make_unique<LatticeModel>(p, kinematics, options, std::move(goal), std::move(chains), point, walls);
   }
   RelevantBodies only(std::initializer_list<int> ids) const {
     ObjectSet set = ObjectSet::of_kind(problem.scene, ObjectKind::immovable);

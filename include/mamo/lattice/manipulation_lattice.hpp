@@ -9,6 +9,7 @@
 #include "mamo/common/stop.hpp"
 #include "mamo/lattice/edge_evaluator.hpp"
 #include "mamo/lattice/goal.hpp"
+#include "mamo/lattice/goal_chain.hpp"
 #include "mamo/lattice/grid_heuristic.hpp"
 #include "mamo/lattice/lattice_options.hpp"
 #include "mamo/search/domain.hpp"
@@ -39,7 +40,8 @@ struct BannedEdge {
 /// tip along its own axes at fixed orientation and about them at a fixed point (Jacobian, rounded to bins), steps of
 /// several joints towards the nearest goal configurations (rounded to bins), snaps onto the nearest goal
 /// configurations, and near the goal a snap onto the inverse-kinematics solution that is found from the configuration
-/// itself. They depend on the configuration, the goal and the seed only (Theorem 5.2).
+/// itself, and for each goal chain the way onto its nearest configuration and along it to the goal (several legs, each
+/// evaluated like an edge of its own). They depend on the configuration, the goal and the seed only (Theorem 5.2).
 /// Heuristic of a pose goal: (1 - a) times that of the grid plus a times the least joint motion that turns the tip's
 /// orientation to that of the goal, angle / sqrt(n) for n joints (|turn| <= sum |dq_i| <= sqrt(n) |dq|). Both are
 /// consistent, and so is their mean; a is orientation_share. Of a joint goal: the larger of grid and joint distance.
@@ -48,7 +50,8 @@ struct BannedEdge {
 class LatticeModel {
  public:
   LatticeModel(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
-               const LatticeOptions& options, ReachGoal goal, const TrackedPoint& point, const ObjectSet& walls);
+               const LatticeOptions& options, ReachGoal goal, std::vector<GoalChain> chains, const TrackedPoint& point,
+               const ObjectSet& walls);
 
   struct Move {
     std::int32_t action;
@@ -60,6 +63,9 @@ class LatticeModel {
   void moves(const LatticeState& state, std::vector<Move>& out) const;
   /// The child of one action; false if there is none. The inverse of what moves() enumerates.
   bool move(const LatticeState& state, std::int32_t action, Move& out) const;
+
+  /// The configurations that an action visits, its child's last; empty if there is no such action.
+  std::vector<Eigen::VectorXd> legs(const LatticeState& state, std::int32_t action) const;
 
   Eigen::VectorXd configuration(std::int32_t anchor, const std::vector<std::int32_t>& bins) const;
   search::Cost heuristic(const Eigen::VectorXd& q) const;
@@ -74,6 +80,9 @@ class LatticeModel {
   bool rounded_step(const LatticeState& state, const Eigen::VectorXd& q, const Eigen::VectorXd& dq, Move& out) const;
   bool extend(const LatticeState& state, const Eigen::VectorXd& q, int goal, Move& out) const;
   bool snap(const Eigen::VectorXd& q, int goal, Move& out) const;
+  bool join(const Eigen::VectorXd& q, int chain, int link, Move& out) const;
+  std::vector<int> nearest_chains(const Eigen::VectorXd& q, int count) const;
+  int nearest_link(const GoalChain& chain, const Eigen::VectorXd& q) const;
   bool own_snap(const Eigen::VectorXd& q, Move& out) const;
   std::vector<int> nearest_goals(const Eigen::VectorXd& q, int count) const;
   struct Nearness {
@@ -86,6 +95,7 @@ class LatticeModel {
   std::shared_ptr<const ForwardKinematics> kinematics_;
   LatticeOptions options_;
   ReachGoal goal_;
+  std::vector<GoalChain> chains_;
   TrackedPoint point_;
   GridHeuristic grid_;
   Eigen::VectorXd resolution_;           // rad or m per bin

@@ -148,12 +148,18 @@ class ParallelSearch {
     trace.schedule = to_string(parallel_.schedule);
     trace.wall_s = now();
     trace.start = start.value;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(table_.id_bound()); ++i) {
-      const Expansion* expansion = scheduler_.expansion(StateId(i));
-      if (!expansion) continue;
-      const auto& state = table_.state(StateId(i));
-      TraceState record{i, table_.class_of(StateId(i)).value, domain_.is_goal(state), domain_.heuristic(state), {}};
-      for (std::size_t k = 0; k < expansion->edges.size(); ++k) {
+    std::vector<bool> met(table_.id_bound(), false);  // ids are not dense
+    met[start.index()] = true;
+    for (const TraceJob& job : trace.jobs) {
+      if (job.child >= 0) met[static_cast<std::size_t>(job.child)] = true;
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      const StateId id(i);
+      const Expansion* expansion = scheduler_.expansion(id);
+      if (!met[i] && !expansion) continue;
+      const auto& state = table_.state(id);
+      TraceState record{id.value, table_.class_of(id).value, domain_.is_goal(state), domain_.heuristic(state), {}};
+      for (std::size_t k = 0; expansion && k < expansion->edges.size(); ++k) {
         const LazyEdge& edge = expansion->edges[k];
         record.edges.push_back({edge.cost, edge.heuristic, expansion->cells[k].known.value});
       }

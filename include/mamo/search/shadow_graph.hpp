@@ -2,11 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <deque>
 #include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -14,12 +17,41 @@
 
 namespace mamo::search {
 
+/// The f that OPEN must rise to, one after the other, before the serial order comes to an edge: along the edges that
+/// lead there from what is committed, the largest f, then the largest after that one, and so on: strictly falling.
+/// Of two edges the one with the lexicographically smaller sequence comes first, whatever the f of what both share.
+/// Only the first kDepth are kept; padded with kNow, which is less than any f.
+struct Bench {
+  static constexpr std::size_t kDepth = 4;
+  static constexpr Cost kNow = std::numeric_limits<Cost>::min();
+
+  std::array<Cost, kDepth> maxima;
+  static Bench now() { return Bench{}.fill(kNow); }
+  static Bench never() { return Bench{}.fill(std::numeric_limits<Cost>::max()); }
+  /// One edge further on.
+  Bench after(Cost f) const {
+    Bench next = *this;
+    std::size_t i = 0;
+    while (i < kDepth && next.maxima[i] > f) ++i;
+    if (i < kDepth) next.maxima[i] = f;
+    for (++i; i < kDepth; ++i) next.maxima[i] = kNow;
+    return next;
+  }
+  friend auto operator<=>(const Bench&, const Bench&) = default;
+
+ private:
+  Bench& fill(Cost value) {
+    maxima.fill(value);
+    return *this;
+  }
+};
+
 /// Urgency of an evaluation: when the serial order could ask for it at the earliest.
 struct BenchKey {
-  Cost bench = 0;  // the largest f on the way there that OPEN must still rise to
+  Bench bench;
   Cost f = 0, g = 0;
   friend bool operator<(const BenchKey& a, const BenchKey& b) {
-    if (a.bench != b.bench) return a.bench < b.bench;
+    if (const auto order = a.bench <=> b.bench; order != 0) return order < 0;
     if (a.f != b.f) return a.f < b.f;
     return a.g > b.g;
   }
@@ -29,8 +61,8 @@ struct BenchKey {
 /// are done, and PENDING, the queue of what could be evaluated ahead. Only speed depends on anything in here.
 ///
 /// The bench key. A shadow's edge may have a tiny f, but the serial order cannot pop it before it has popped the
-/// edges that lead there. So the key of an edge is (max over the uncommitted edges on the way, itself included, of f;
-/// then its own f; then larger g). Ordering by raw f instead wastes most speculation (PARALLEL.md section 2.3).
+/// edges that lead there. So edges are ordered by Bench, then f, then larger g. Ordering by raw f instead wastes most
+/// speculation (PARALLEL.md section 2.3); ordering by the largest f alone wastes it where many workers run far ahead.
 /// A state that several edges lead to has the least (bench, g) among them.
 ///
 /// A shadow is alive while it is closed, or its class is open and a done edge of a living state leads to it. Only
@@ -40,11 +72,10 @@ struct BenchKey {
 template <Domain D, bool lazy>
 class ShadowGraph {
  public:
-  static constexpr Cost kNow = std::numeric_limits<Cost>::min();
-
   struct Shadow {
     std::unique_ptr<Expansion> expansion;
-    Cost bench = kUnreachable, g = kUnreachable, h = 0;
+    Bench bench = Bench::never();
+    Cost g = kUnreachable, h = 0;
     std::int32_t live_in = 0;    // done edges of living states that lead here
     std::uint32_t version = 0;   // of its entry in PENDING
     std::int32_t cursor = 0;     // into expansion->order: everything before is not fresh
@@ -99,7 +130,7 @@ class ShadowGraph {
     Shadow& s = at(id);
     s.closed = true;
     for (StateId m = at(table_.class_of(id)).first_in_class; m != kNoState; m = at(m).next_in_class) set_alive(m);
-    s.bench = kNow;
+    s.bench = Bench::now();
     s.g = g;
     const std::size_t bottom = steps_.size();
     relax_children(id);
@@ -115,7 +146,7 @@ class ShadowGraph {
     meet(id);
     at(id).opened = true;
     set_alive(id);
-    improve(id, kNow, g, at(id).h);
+    improve(id, Bench::now(), g, at(id).h);
   }
 
   /// An edge is fresh again.
@@ -128,11 +159,11 @@ class ShadowGraph {
     if constexpr (lazy) {
       const LazyEdge& e = s.expansion->edges[static_cast<std::size_t>(edge)];
       const Cost g = s.g + e.cost, f = weight_.f(g, e.heuristic);
-      return {std::max(s.bench, f), f, g};
+      return {s.bench.after(f), f, g};
     } else {
-      if (s.closed) return {kNow, kNow, s.g};
+      if (s.closed) return {Bench::now(), Bench::kNow, s.g};
       const Cost f = weight_.f(s.g, s.h);
-      return {std::max(s.bench, f), f, s.g};
+      return {s.bench.after(f), f, s.g};
     }
   }
 
@@ -225,27 +256,28 @@ class ShadowGraph {
 
   struct Step {
     StateId id;
-    Cost bench, g, h;
+    Bench bench;
+    Cost g, h;
   };
   /// What `parent` and its edge say of the child's bench, g and h.
   Step step_over(StateId parent, std::int32_t edge, StateId child) {
     const Shadow& p = at(parent);
     const LazyEdge& e = p.expansion->edges[static_cast<std::size_t>(edge)];
     const Cost g = p.g + e.cost;
-    if constexpr (lazy) return {child, std::max(p.bench, weight_.f(g, e.heuristic)), g, e.heuristic};
-    return {child, p.closed ? kNow : key_of(p, edge).bench, g, e.heuristic};
+    if constexpr (lazy) return {child, p.bench.after(weight_.f(g, e.heuristic)), g, e.heuristic};
+    return {child, p.closed ? Bench::now() : key_of(p, edge).bench, g, e.heuristic};
   }
 
   /// Lowers (bench, g) of a state and of all that hang on it through done edges. Ends: a value that comes round a
   /// cycle has a larger g, and never a smaller bench.
-  void improve(StateId first, Cost bench, Cost g, Cost h) {
+  void improve(StateId first, const Bench& bench, Cost g, Cost h) {
     const std::size_t bottom = steps_.size();
     steps_.push_back({first, bench, g, h});
     while (steps_.size() > bottom) {
       const Step step = steps_.back();
       steps_.pop_back();
       Shadow& s = at(step.id);
-      if (std::pair(step.bench, step.g) >= std::pair(s.bench, s.g)) continue;
+      if (std::tie(step.bench, step.g) >= std::tie(s.bench, s.g)) continue;
       s.bench = step.bench;
       s.g = step.g;
       s.h = step.h;

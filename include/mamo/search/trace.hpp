@@ -26,7 +26,7 @@ struct TraceJob {
   std::int32_t child = -1;
 };
 
-/// A state whose successors were generated.
+/// A state that was met; without edges unless its successors were generated.
 struct TraceState {
   std::int32_t id = -1;
   std::int32_t class_of = -1;   // two states with the same value are in one class

@@ -1,0 +1,134 @@
+// Predicts, from the trace of one search, how it would have gone with 1 to 128 workers.
+//
+//   scaling TRACE [--workers 1,2,4,...] [--locked-us X] [--json]
+//
+// Runs the real scheduler in virtual time over the recorded evaluations (thread CPU time of each). Prints work and
+// span first: their ratio is about the most that any number of workers can win while keeping the serial order.
+// Contention for caches and memory is not modelled.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "mamo/search/eager_order.hpp"
+#include "mamo/search/lazy_order.hpp"
+#include "mamo/search/trace_domain.hpp"
+#include "mamo/search/virtual_time.hpp"
+
+namespace {
+
+using namespace mamo::search;
+
+constexpr char kUsage[] = "usage: scaling TRACE [--workers 1,2,4,...] [--locked-us MICROSECONDS] [--json]\n";
+
+struct Arguments {
+  std::string trace;
+  std::vector<int> workers{1, 2, 4, 8, 16, 32, 64, 128};
+  double locked_us = 4;
+  bool json = false;
+};
+
+/// Exits with 64 when the arguments are not understood.
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  const auto wrong = [](const std::string& what) {
+    std::fprintf(stderr, "scaling: %s\n%s", what.c_str(), kUsage);
+    std::exit(64);
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool more = i + 1 < argc;
+    if (word == "--json") {
+      a.json = true;
+    } else if (word == "--workers" && more) {
+      a.workers.clear();
+      std::istringstream list(argv[++i]);
+      for (std::string item; std::getline(list, item, ',');) a.workers.push_back(std::atoi(item.c_str()));
+      for (const int w : a.workers) {
+        if (w < 1 || w > 4096) wrong("--workers takes numbers from 1 to 4096");
+      }
+    } else if (word == "--locked-us" && more) {
+      a.locked_us = std::atof(argv[++i]);
+    } else if (a.trace.empty() && word[0] != '-') {
+      a.trace = word;
+    } else {
+      wrong("what is " + word + "?");
+    }
+  }
+  if (a.trace.empty()) wrong("no trace given");
+  return a;
+}
+
+struct Row {
+  int workers;
+  Schedule schedule;
+  double seconds, clairvoyant, stall, idle_share, efficiency;
+};
+
+template <template <class, class> class OrderT>
+int predict(const Trace& trace, const Arguments& arguments) {
+  const TraceDomain domain(trace);
+  SearchOptions options;
+  options.weight = trace.weight;
+  options.max_evaluations = domain.commits();
+  const auto seconds = [&](const TraceDomain::State& s, std::int32_t action) { return domain.seconds(s, action); };
+  const WorkAndSpan work = work_and_span<OrderT>(domain, options, seconds);
+  VirtualCosts costs;
+  costs.locked_s = 1e-6 * arguments.locked_us;
+  std::vector<Row> rows;
+  for (const int p : arguments.workers) {
+    for (const Schedule schedule : {Schedule::batch, Schedule::window, Schedule::runahead}) {
+      ParallelOptions parallel;
+      parallel.schedule = schedule;
+      const VirtualRun run = virtual_search<OrderT>(domain, seconds, options, parallel, p, costs);
+      rows.push_back({p, schedule, run.seconds, clairvoyant_s(work, p), run.stall_s, run.idle_s / (p * run.seconds),
+                      run.efficiency()});
+    }
+  }
+  const std::size_t evaluations = work.commits.size();
+  if (arguments.json) {
+    std::printf("{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
+                "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
+                arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
+                trace.schedule.c_str(), trace.wall_s);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& r = rows[i];
+      std::printf("%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
+                  "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
+                  i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds,
+                  work.work_s / r.seconds, r.clairvoyant, r.stall, r.idle_share, r.efficiency);
+    }
+    std::printf("\n]}\n");
+    return 0;
+  }
+  std::printf("weight %g, %zu committed evaluations, work %.3f s, span %.3f s, work / span %.1f\n", trace.weight,
+              evaluations, work.work_s, work.span_s, work.span_s > 0 ? work.work_s / work.span_s : 1.0);
+  std::printf("recorded with %d threads, %s: %.3f s\n", trace.threads, trace.schedule.c_str(), trace.wall_s);
+  std::printf("%8s %-9s %10s %8s %12s %8s %8s %6s %10s\n", "workers", "schedule", "seconds", "speedup", "clairvoyant",
+              "share", "stall_s", "idle", "efficiency");
+  for (const Row& r : rows) {
+    std::printf("%8d %-9s %10.3f %8.2f %12.3f %8.2f %8.3f %6.2f %10.2f\n", r.workers,
+                std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds, r.clairvoyant,
+                r.clairvoyant / r.seconds, r.stall, r.idle_share, r.efficiency);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = parse(argc, argv);
+  std::ifstream file(arguments.trace);
+  if (!file) {
+    std::fprintf(stderr, "%s: cannot be read\n", arguments.trace.c_str());
+    return 3;
+  }
+  const auto trace = read_trace(file, arguments.trace);
+  if (!trace.ok()) {
+    std::fprintf(stderr, "%s\n", trace.error().message.c_str());
+    return 3;
+  }
+  return trace->lazy ? predict<LazyOrder>(*trace, arguments) : predict<EagerOrder>(*trace, arguments);
+}
