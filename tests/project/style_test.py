@@ -23,7 +23,7 @@ BANNED = [
       "src/common/cpu_time.cpp": "CPU time of the thread, reported likewise",
       "include/mamo/search/parallel_search.hpp": "time stamps of the trace, written and never read by the search",
       "src/physics/evaluation.cpp": "Evaluator::simulation_s, reported and never read by an algorithm",
-      "src/search/toy_domain.cpp": "scripted delays: it waits, and reads no result off the clock",
+      "src/search/toy_": "toy domains with scripted delays: they wait and read no result off the clock",
       "src/experiments/": "when a run started, in its record",
       "tools/": "wall times of the report and of the progress line",
       "bench/": "measures"}),
