@@ -58,9 +58,9 @@ void write_trace(const Trace& trace, std::ostream& out) {
   }
   out << std::setprecision(9);
   for (const TraceJob& j : trace.jobs) {
-    out << "J " << j.state << ' ' << j.edge << ' ' << j.worker << ' ' << j.head << ' ' << j.taken << ' ' << j.done << ' '
-        << j.needed << ' ' << j.committed << ' ' << j.commit << ' ' << j.cpu_s << ' ' << j.costly_s << ' ' << j.valid
-        << ' ' << j.cancelled << ' ' << j.charge << ' ' << j.child << '\n';
+    out << "J " << j.state << ' ' << j.edge << ' ' << j.worker << ' ' << j.head << ' ' << j.taken << ' ' << j.done
+        << ' ' << j.needed << ' ' << j.committed << ' ' << j.commit << ' ' << j.cpu_s << ' ' << j.costly_s << ' '
+        << j.valid << ' ' << j.cancelled << ' ' << j.charge << ' ' << j.child << '\n';
   }
 }
 
@@ -77,7 +77,8 @@ Result<Trace> read_trace(std::istream& in, const std::string& name) {
   std::getline(in, line);
   std::istringstream header(line);
   if (!(header >> word >> trace.weight >> trace.lazy >> trace.threads >> trace.schedule >> trace.wall_s >>
-        trace.start >> states >> jobs) || word != kMagic) {
+        trace.start >> states >> jobs) ||
+      word != kMagic) {
     return bad("a header of nine fields");
   }
   while (std::getline(in, line)) {

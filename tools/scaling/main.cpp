@@ -89,16 +89,18 @@ int predict(const Trace& trace, const Arguments& arguments) {
   }
   const std::size_t evaluations = work.commits.size();
   if (arguments.json) {
-    std::printf("{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
-                "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
-                arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
-                trace.schedule.c_str(), trace.wall_s);
+    std::printf(
+        "{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
+        "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
+        arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
+        trace.schedule.c_str(), trace.wall_s);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Row& r = rows[i];
-      std::printf("%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
-                  "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
-                  i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds,
-                  work.work_s / r.seconds, r.clairvoyant, r.stall, r.idle_share, r.efficiency);
+      std::printf(
+          "%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
+          "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
+          i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds,
+          r.clairvoyant, r.stall, r.idle_share, r.efficiency);
     }
     std::printf("\n]}\n");
     return 0;
