@@ -1,14 +1,16 @@
 // Parallel lazy weighted A* on the toy domain: against the serial search, predicted, and the cost of a commit.
 //
-// The evaluations sleep for their scripted length, so that more workers than cores can be emulated; "predicted" runs
-// the same scheduler in virtual time. Counters of a row: serial_s, speedup (sum of serial times / sum of times),
-// efficiency (useful / all evaluation time). Every run's order hash is compared with the serial one.
+// asleep: evaluations sleep for their scripted length, so that more workers than cores can be emulated; computing: they
+// compute for about as long; predicted: the same scheduler in virtual time, on more problems. Counters of a row:
+// speedup (sum of serial times / sum of times; problems of at least 8 s, predicted 3 s, of serial work), efficiency
+// (useful / all evaluation time), predicted_over_measured. Every order hash is compared with the serial one.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -70,37 +72,59 @@ void demand(bool holds, const char* what) {
   std::abort();
 }
 
-/// Serial and parallel runs of the same problems, alternating.
-void measured(benchmark::State& state, Schedule schedule, int threads) {
-  const std::vector<std::uint64_t> seeds = problems(3, 3, 6);
-  double serial_s = 0, parallel_s = 0;
+/// Problems whose evaluations sleep or compute, with the serial search of each, timed once.
+struct Timed {
+  ToyClutter domain;
+  double serial_s;
+  std::uint64_t order_hash;
+};
+const std::vector<Timed>& timed(ToyDelay delay) {
+  static std::map<ToyDelay, std::vector<Timed>> all;
+  std::vector<Timed>& problems_of = all[delay];
+  if (!problems_of.empty()) return problems_of;
+  for (const std::uint64_t seed : problems(3, 8, 16)) {
+    const ToyClutter domain(clutter(seed, delay));
+    ToyClutter::Context context;
+    const double begun = now_s();
+    const auto serial = serial_search<LazyOrder>(domain, context, options());
+    problems_of.push_back({domain, now_s() - begun, serial.order_hash});
+  }
+  return problems_of;
+}
+
+void measured(benchmark::State& state, ToyDelay delay, Schedule schedule, int threads) {
+  double serial_s = 0, parallel_s = 0, predicted_s = 0;
   ParallelStats total;
   for (auto _ : state) {
     double this_run = 0;
-    for (const std::uint64_t seed : seeds) {
-      const ToyClutter domain(clutter(seed, ToyDelay::sleep));
-      ToyClutter::Context context;
-      const double t0 = now_s();
-      const auto serial = serial_search<LazyOrder>(domain, context, options());
-      const double t1 = now_s();
+    for (const Timed& problem : timed(delay)) {
       std::vector<ToyClutter::Context> contexts(static_cast<std::size_t>(threads));
       ParallelOptions parallel;
       parallel.schedule = schedule;
+      parallel.measure = delay == ToyDelay::busy;
       ParallelStats stats;
-      const auto result = parallel_lazy_weighted_astar(domain, std::span(contexts), options(), parallel, &stats);
-      const double t2 = now_s();
-      demand(result.order_hash == serial.order_hash, "the parallel search is not the serial one");
-      serial_s += t1 - t0;
-      this_run += t2 - t1;
-      total.evaluations += stats.evaluations;
-      total.used += stats.used;
+      const double begun = now_s();
+      const auto result =
+          parallel_lazy_weighted_astar(problem.domain, std::span(contexts), options(), parallel, &stats);
+      this_run += now_s() - begun;
+      demand(result.order_hash == problem.order_hash, "the parallel search is not the serial one");
+      serial_s += problem.serial_s;
+      total.evaluation_s += stats.evaluation_s;
+      total.used_s += stats.used_s;
+      const auto seconds = [&](const ToyState& s, std::int32_t a) { return scripted_s(problem.domain, s, a); };
+      const ToyClutter quick(clutter(problem.domain.options().seed, ToyDelay::none));
+      const double work = work_and_span<LazyOrder>(quick, options(), seconds).work_s;
+      // Scripted lengths scaled to what the serial run took.
+      predicted_s +=
+          virtual_search<LazyOrder>(quick, seconds, options(), parallel, threads).seconds * problem.serial_s / work;
     }
     parallel_s += this_run;
     state.SetIterationTime(this_run);
   }
   state.counters["serial_s"] = serial_s / static_cast<double>(state.iterations());
   state.counters["speedup"] = serial_s / parallel_s;
-  state.counters["used_share"] = static_cast<double>(total.used) / static_cast<double>(total.evaluations);
+  state.counters["predicted_over_measured"] = predicted_s / parallel_s;
+  if (delay == ToyDelay::busy) state.counters["efficiency"] = total.efficiency();
 }
 
 void predicted(benchmark::State& state, Schedule schedule, int workers) {
@@ -185,13 +209,15 @@ int main(int argc, char** argv) {
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
     }
-    for (const int threads : {2, 4, 8, 16}) {
-      benchmark::RegisterBenchmark(("asleep/" + name + "/" + std::to_string(threads)).c_str(), measured, schedule,
-                                   threads)
+    const auto add_measured = [&](const char* how, ToyDelay delay, int threads) {
+      const std::string row = std::string(how) + "/" + name + "/" + std::to_string(threads);
+      benchmark::RegisterBenchmark(row.c_str(), measured, delay, schedule, threads)
           ->UseManualTime()
           ->Iterations(1)
           ->Unit(benchmark::kSecond);
-    }
+    };
+    add_measured("computing", ToyDelay::busy, 2);
+    for (const int threads : {2, 4, 8, 16, 32}) add_measured("asleep", ToyDelay::sleep, threads);
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

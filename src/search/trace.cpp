@@ -14,7 +14,10 @@ std::int32_t Trace::begin_job(const Need& need, int worker, bool head, double no
   job.worker = worker;
   job.head = head;
   job.taken = now;
-  if (head && awaited_.parent == need.parent && awaited_.edge == need.edge) job.needed = awaited_at_;
+  if (head) {  // needed since it was announced, or since the job that had it was cancelled
+    const bool announced = awaited_.parent == need.parent && awaited_.edge == need.edge;
+    job.needed = announced ? awaited_at_ : now;
+  }
   jobs.push_back(job);
   return static_cast<std::int32_t>(jobs.size() - 1);
 }

@@ -43,6 +43,7 @@ class ToyClutter {
 
   EdgeOutcome<State> outcome(const State& s, std::int32_t action) const;
   double evaluation_ms(const State& s, std::int32_t action) const;
+  const ToyClutterOptions& options() const { return options_; }
 
  private:
   enum class Cell : std::uint8_t { free, wall, movable };

@@ -14,7 +14,7 @@ namespace mamo::search {
 
 /// Seconds of everything that is not an evaluation.
 struct VirtualCosts {
-  double locked_s = 4e-6;  // one take or finish, commits included; nobody else may at the same time
+  double locked_s = 1e-6;  // one take or finish, commits included; nobody else may at the same time
   double cancel_s = 1e-3;  // from the flag to the return of a cancelled evaluation
 };
 
