@@ -2,8 +2,10 @@
 #include <benchmark/benchmark.h>
 #include <oneapi/tbb/concurrent_hash_map.h>
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -26,6 +28,24 @@ struct KeyHash {
 };
 Key key_of(std::uint64_t i) { return {mix64(i), mix64(i ^ 0x5bd1e995)}; }
 
+/// Keys 0 .. n-1 and as many that are never inserted; made once, so that only the map is timed.
+const std::vector<Key>& keys_up_to(std::uint64_t n) {
+  static std::vector<Key> keys;
+  for (std::uint64_t i = keys.size(); i < 2 * n; ++i) keys.push_back(key_of(i));
+  return keys;
+}
+/// The numbers 0 .. n-1, shuffled.
+const std::vector<std::uint32_t>& shuffled(std::uint64_t n) {
+  static std::map<std::uint64_t, std::vector<std::uint32_t>> orders;
+  std::vector<std::uint32_t>& order = orders[n];
+  mamo::RandomStream random(2, {n});
+  for (std::uint64_t i = order.size(); i < n; ++i) {
+    order.push_back(static_cast<std::uint32_t>(i));
+    std::swap(order.back(), order[random.below(i + 1)]);
+  }
+  return order;
+}
+
 class Ours {
  public:
   struct Record {
@@ -34,8 +54,9 @@ class Ours {
   using Writer = mamo::search::ClosedList<Record>::Writer;
   bool insert(const Key& key, Writer& writer) {
     return list_
-        .insert(KeyHash()(key), writer, [&](const Record& r) { return r.key == key; },
-                [&](Record& r, std::int32_t) { r.key = key; })
+        .insert(
+            KeyHash()(key), writer, [&](const Record& r) { return r.key == key; },
+            [&](Record& r, std::int32_t) { r.key = key; })
         .second;
   }
   bool find(const Key& key) const {
@@ -114,59 +135,71 @@ void check(std::uint64_t keys) {
   if (signature != expected) std::fprintf(stderr, "closed_list_bench: wrong answer\n"), std::abort();
 }
 
-/// Every thread inserts its own half of the keys and meets the other's keys as well: each key is inserted by all.
+/// What thread t of T works on.
+struct Share {
+  explicit Share(const benchmark::State& state)
+      : all(static_cast<std::uint64_t>(state.range(0))),
+        size(all / static_cast<std::uint64_t>(state.threads())),
+        first(static_cast<std::uint64_t>(state.thread_index()) * size) {}
+  std::uint64_t all, size, first;
+};
+
+/// Each thread inserts its share.
 template <class Map>
 void insert(benchmark::State& state) {
-  const auto keys = static_cast<std::uint64_t>(state.range(0));
-  const auto threads = static_cast<std::uint64_t>(state.threads());
-  const std::uint64_t share = keys / threads, first = static_cast<std::uint64_t>(state.thread_index()) * share;
+  const Share share(state);
+  const std::vector<Key>& keys = keys_up_to(share.all);
   for (auto _ : state) {
     typename Map::Writer writer;
-    fill(*shared<Map>, first, first + share, writer);
+    for (std::uint64_t i = share.first; i < share.first + share.size; ++i) shared<Map>->insert(keys[i], writer);
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(share));
+  state.SetItemsProcessed(static_cast<std::int64_t>(share.size));
 }
 
-/// A quarter inserts of new keys, three quarters finds, half of which hit.
+/// Three of four operations look up a key, half of which have been inserted before.
 template <class Map>
 void mixed(benchmark::State& state) {
-  const auto keys = static_cast<std::uint64_t>(state.range(0));
-  const auto threads = static_cast<std::uint64_t>(state.threads());
-  const std::uint64_t share = keys / threads, first = static_cast<std::uint64_t>(state.thread_index()) * share;
+  const Share share(state);
+  const std::vector<Key>& keys = keys_up_to(share.all);
   std::uint64_t hits = 0;
   for (auto _ : state) {
     typename Map::Writer writer;
-    mamo::RandomStream random(1, {first});
-    for (std::uint64_t i = first; i < first + share; ++i) {
+    std::uint64_t inserted = share.first, seed = share.first;
+    for (std::uint64_t i = 0; i < share.size; ++i) {
       if (i % 4 == 0) {
-        shared<Map>->insert(key_of(i), writer);
+        shared<Map>->insert(keys[inserted++], writer);
       } else {
-        hits += shared<Map>->find(key_of(random.below(2) ? first + random.below(share) / 4 * 4 : keys + i));
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        const std::uint64_t draw = (seed >> 32) * (inserted - share.first) >> 32;
+        hits += shared<Map>->find(keys[share.first + draw + (i % 2 ? share.all : 0)]);
       }
     }
   }
   benchmark::DoNotOptimize(hits);
-  state.SetItemsProcessed(static_cast<std::int64_t>(share));
+  state.SetItemsProcessed(static_cast<std::int64_t>(share.size));
 }
 
 template <class Map>
 void find(benchmark::State& state) {
-  const auto keys = static_cast<std::uint64_t>(state.range(0));
-  const auto threads = static_cast<std::uint64_t>(state.threads());
+  const Share share(state);
+  const std::vector<Key>& keys = keys_up_to(share.all);
+  const std::vector<std::uint32_t>& order = shuffled(share.all);
   std::uint64_t hits = 0;
   for (auto _ : state) {
-    mamo::RandomStream random(2, {static_cast<std::uint64_t>(state.thread_index())});
-    for (std::uint64_t i = 0; i < keys / threads; ++i) hits += shared<Map>->find(key_of(random.below(keys)));
+    for (std::uint64_t i = share.first; i < share.first + share.size; ++i) hits += shared<Map>->find(keys[order[i]]);
   }
-  benchmark::DoNotOptimize(hits);
-  state.SetItemsProcessed(static_cast<std::int64_t>(keys / threads));
+  if (hits != share.size) std::fprintf(stderr, "closed_list_bench: wrong answer\n"), std::abort();
+  state.SetItemsProcessed(static_cast<std::int64_t>(share.size));
 }
 
 template <class Map, bool filled>
 void setup(const benchmark::State& state) {
+  const auto n = static_cast<std::uint64_t>(state.range(0));
+  keys_up_to(n);
+  shuffled(n);
   shared<Map> = std::make_unique<Map>();
   typename Map::Writer writer;
-  if (filled) fill(*shared<Map>, 0, static_cast<std::uint64_t>(state.range(0)), writer);
+  if (filled) fill(*shared<Map>, 0, n, writer);
 }
 template <class Map>
 void teardown(const benchmark::State&) {
@@ -181,6 +214,8 @@ void add(const std::string& name) {
     auto* b = benchmark::RegisterBenchmark((what + "/" + name).c_str(), function);
     b->Arg(100'000)->Arg(1'000'000)->Threads(1)->Threads(2)->Iterations(1)->UseRealTime();
     b->Setup(prepare)->Teardown(teardown<Map>)->Unit(benchmark::kMillisecond);
+    b->ComputeStatistics("min", [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); });
+    b->ComputeStatistics("max", [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); });
   };
   one("insert", insert<Map>, setup<Map, false>);
   one("mixed", mixed<Map>, setup<Map, false>);

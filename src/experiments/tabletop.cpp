@@ -25,7 +25,7 @@ namespace {
 constexpr double kTableTop = 0.72, kTableThickness = 0.04;
 constexpr double kTableFront = 0.45, kTableDepth = 0.60, kTableMiddle = -0.20, kTableWidth = 1.20;
 constexpr double kStripX[2] = {0.52, 0.88}, kStripMiddle = -0.25;
-constexpr double kAreaPerObject = 0.030;          // m^2
+constexpr double kAreaPerObject = 0.028;          // m^2
 constexpr double kStripWidth[2] = {0.30, 1.00};   // least and most
 constexpr double kGap = 0.008;                    // m between objects
 constexpr double kShoulder[2] = {-0.05, -0.188};  // axis of the shoulder's pan joint
@@ -163,7 +163,7 @@ class Generator {
     }
     const double ahead = std::atan2(p.y() - kShoulder[1], p.x() - kShoulder[0]);
     Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
-    X_WT.translation() = Eigen::Vector3d(p.x(), p.y(), kTableTop + random.uniform(0.05, 0.20));
+    X_WT.translation() = Eigen::Vector3d(p.x(), p.y(), kTableTop + random.uniform(0.05, 0.12));
     X_WT.linear() = (Eigen::AngleAxisd(ahead + random.uniform(-0.6, 0.6), Eigen::Vector3d::UnitZ()) *
                      Eigen::AngleAxisd(random.uniform(0.0, 0.5), Eigen::Vector3d::UnitY()) *
                      Eigen::AngleAxisd(random.uniform(-0.5, 0.5) * std::numbers::pi, Eigen::Vector3d::UnitX()))

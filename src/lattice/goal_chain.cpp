@@ -26,7 +26,8 @@ struct Tree {
   }
   std::vector<Eigen::VectorXd> to_root(int node) const {
     std::vector<Eigen::VectorXd> path;
-    for (; node >= 0; node = nodes[static_cast<std::size_t>(node)].parent) path.push_back(nodes[static_cast<std::size_t>(node)].q);
+    for (; node >= 0; node = nodes[static_cast<std::size_t>(node)].parent)
+      path.push_back(nodes[static_cast<std::size_t>(node)].q);
     return path;
   }
 };
@@ -37,12 +38,14 @@ class Connector {
       : problem_(problem), checker_(checker), walls_(walls), options_(options) {}
 
   /// Path from the start to some goal; empty when the budget of nodes is used up.
-  std::vector<Eigen::VectorXd> connect(const std::vector<Eigen::VectorXd>& goals, RandomStream& random, StopSource* stop) {
+  std::vector<Eigen::VectorXd> connect(const std::vector<Eigen::VectorXd>& goals, RandomStream& random,
+                                       StopSource* stop) {
     Tree trees[2];
     trees[0].nodes.push_back({problem_.q_start, -1});
     for (const Eigen::VectorXd& q : goals) trees[1].nodes.push_back({q, -1});
     int side = 0;
-    while (static_cast<int>(trees[0].nodes.size() + trees[1].nodes.size()) < options_.max_nodes && attempts_++ < 4 * options_.max_nodes) {
+    while (static_cast<int>(trees[0].nodes.size() + trees[1].nodes.size()) < options_.max_nodes &&
+           attempts_++ < 4 * options_.max_nodes) {
       if (stop && stop->stopped()) return {};
       Tree &grown = trees[side], &other = trees[1 - side];
       bool reached = false;
@@ -75,13 +78,16 @@ class Connector {
   }
 
  private:
-  bool free(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return checker_.check_edge(a, b, walls_, none_, report_); }
+  bool free(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return checker_.check_edge(a, b, walls_, none_, report_);
+  }
 
   Eigen::VectorXd sample(RandomStream& random) const {
     Eigen::VectorXd q(problem_.robot.dof());
     for (int i = 0; i < problem_.robot.dof(); ++i) {
       const Joint& j = problem_.robot.joint(i);
-      q[i] = random.uniform(std::max(j.lower, problem_.q_start[i] - std::numbers::pi), std::min(j.upper, problem_.q_start[i] + std::numbers::pi));
+      q[i] = random.uniform(std::max(j.lower, problem_.q_start[i] - std::numbers::pi),
+                            std::min(j.upper, problem_.q_start[i] + std::numbers::pi));
     }
     return q;
   }
@@ -110,7 +116,8 @@ std::vector<Eigen::VectorXd> subdivided(const std::vector<Eigen::VectorXd>& path
   std::vector<Eigen::VectorXd> out{path.front()};
   for (std::size_t k = 1; k < path.size(); ++k) {
     const int pieces = std::max(1, static_cast<int>(std::ceil((path[k] - path[k - 1]).norm() / spacing)));
-    for (int i = 1; i < pieces; ++i) out.push_back(path[k - 1] + (path[k] - path[k - 1]) * (static_cast<double>(i) / pieces));
+    for (int i = 1; i < pieces; ++i)
+      out.push_back(path[k - 1] + (path[k] - path[k - 1]) * (static_cast<double>(i) / pieces));
     out.push_back(path[k]);
   }
   return out;

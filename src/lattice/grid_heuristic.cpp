@@ -101,8 +101,10 @@ void GridHeuristic::mark_walls(const Object& object, double radius) {
     const Eigen::Isometry3d X_WS = object.X_WO * s.X_BS, X_SW = X_WS.inverse();
     const Eigen::AlignedBox3d box = bounds(s.shape, X_WS);
     const double margin = std::max(limit, 0.0);
-    const Eigen::Vector3d lo = ((box.min() - origin_).array() - margin) / cell_, hi = ((box.max() - origin_).array() + margin) / cell_;
-    const Eigen::Vector3i a = lo.array().floor().cast<int>().max(0), b = hi.array().ceil().cast<int>().min(size_.array() - 1);
+    const Eigen::Vector3d lo = ((box.min() - origin_).array() - margin) / cell_,
+                          hi = ((box.max() - origin_).array() + margin) / cell_;
+    const Eigen::Vector3i a = lo.array().floor().cast<int>().max(0),
+                          b = hi.array().ceil().cast<int>().min(size_.array() - 1);
     for (int z = a.z(); z <= b.z(); ++z)
       for (int y = a.y(); y <= b.y(); ++y)
         for (int x = a.x(); x <= b.x(); ++x) {
@@ -116,8 +118,13 @@ void GridHeuristic::mark_walls(const Object& object, double radius) {
 void GridHeuristic::flood(const Eigen::Vector3d& goal, double goal_radius) {
   std::vector<std::int32_t> frontier, next;
   const double radius = goal_radius + cell_ * std::sqrt(3.0) / 2;
-  const Eigen::Vector3i a = ((goal - origin_).array() - radius).cwiseQuotient(Eigen::Array3d::Constant(cell_)).floor().cast<int>().max(0);
-  const Eigen::Vector3i b = ((goal - origin_).array() + radius).cwiseQuotient(Eigen::Array3d::Constant(cell_)).ceil().cast<int>().min(size_.array() - 1);
+  const Eigen::Vector3i a =
+      ((goal - origin_).array() - radius).cwiseQuotient(Eigen::Array3d::Constant(cell_)).floor().cast<int>().max(0);
+  const Eigen::Vector3i b = ((goal - origin_).array() + radius)
+                                .cwiseQuotient(Eigen::Array3d::Constant(cell_))
+                                .ceil()
+                                .cast<int>()
+                                .min(size_.array() - 1);
   for (int z = a.z(); z <= b.z(); ++z)
     for (int y = a.y(); y <= b.y(); ++y)
       for (int x = a.x(); x <= b.x(); ++x) {

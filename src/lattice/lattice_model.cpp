@@ -40,7 +40,8 @@ LatticeModel::LatticeModel(const Problem& problem, std::shared_ptr<const Forward
   const int n = robot.dof();
   const Eigen::VectorXd lever = kinematics_->motion_bounds(robot.group.tip, point.p_T);
   resolution_.resize(n);
-  cost_per_cell_ = static_cast<search::Cost>(std::floor(1000.0 * options.heuristic_cell / std::max(lever.norm(), 1e-9)));
+  cost_per_cell_ =
+      static_cast<search::Cost>(std::floor(1000.0 * options.heuristic_cell / std::max(lever.norm(), 1e-9)));
   shortest_ = search::kUnreachable;
   for (int i = 0; i < n; ++i) {
     // A prismatic joint moves as far per bin as a revolute one of the configured resolution does at half a metre.
@@ -152,7 +153,8 @@ bool LatticeModel::tip_step(const LatticeState& state, const Eigen::VectorXd& q,
   Eigen::Matrix<double, 6, Eigen::Dynamic> J;
   kinematics_->jacobian(q, J);
   constexpr double kDamping = 0.02;
-  const Eigen::Matrix<double, 6, 6> A = J * J.transpose() + kDamping * kDamping * Eigen::Matrix<double, 6, 6>::Identity();
+  const Eigen::Matrix<double, 6, 6> A =
+      J * J.transpose() + kDamping * kDamping * Eigen::Matrix<double, 6, 6>::Identity();
   out.action = tip_action(problem_.robot.dof(), index);
   return rounded_step(state, q, J.transpose() * A.ldlt().solve(twist), out);
 }
@@ -203,7 +205,8 @@ int LatticeModel::nearest_link(const GoalChain& chain, const Eigen::VectorXd& q)
 std::vector<int> LatticeModel::nearest_chains(const Eigen::VectorXd& q, int count) const {
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < chains_.size(); ++k)
-    order.emplace_back((chains_[k].q[static_cast<std::size_t>(nearest_link(chains_[k], q))] - q).norm(), static_cast<int>(k));
+    order.emplace_back((chains_[k].q[static_cast<std::size_t>(nearest_link(chains_[k], q))] - q).norm(),
+                       static_cast<int>(k));
   std::sort(order.begin(), order.end());
   std::vector<int> nearest;
   for (const auto& [distance, k] : order)
@@ -220,7 +223,8 @@ bool LatticeModel::join(const Eigen::VectorXd& q, int chain, int link, Move& out
   out.bins.assign(static_cast<std::size_t>(q.size()), 0);
   const Eigen::VectorXd* from = &q;
   double length = 0;
-  for (std::size_t k = static_cast<std::size_t>(link); k < c.q.size(); from = &c.q[k++]) length += (c.q[k] - *from).norm();
+  for (std::size_t k = static_cast<std::size_t>(link); k < c.q.size(); from = &c.q[k++])
+    length += (c.q[k] - *from).norm();
   out.cost = std::max<search::Cost>(1, static_cast<search::Cost>(std::ceil(1000.0 * length)));
   return true;
 }

@@ -28,7 +28,9 @@ std::uint64_t hash_configuration(const LatticeState& s) {
 
 }  // namespace
 
-std::int32_t failure_tag(ViolationKind kind, bool simulated) { return 1 + 2 * static_cast<std::int32_t>(kind) + simulated; }
+std::int32_t failure_tag(ViolationKind kind, bool simulated) {
+  return 1 + 2 * static_cast<std::int32_t>(kind) + simulated;
+}
 
 std::string failure_name(std::int32_t tag) {
   const auto kind = static_cast<ViolationKind>((tag - 1) / 2);
@@ -75,9 +77,11 @@ ManipulationLattice::PoseClass ManipulationLattice::pose_class(std::size_t k, co
   const double angle = o.object_angle_resolution_deg * std::numbers::pi / 180.0;
   PoseClass c{};
   for (int i = 0; i < 3; ++i) {
-    c[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(std::lround(X.translation()[i] / o.object_position_resolution));
+    c[static_cast<std::size_t>(i)] =
+        static_cast<std::int32_t>(std::lround(X.translation()[i] / o.object_position_resolution));
     c[static_cast<std::size_t>(3 + i)] = static_cast<std::int32_t>(std::lround(X.linear()(i, 2) / angle));
-    if (!symmetric_[k]) c[static_cast<std::size_t>(6 + i)] = static_cast<std::int32_t>(std::lround(X.linear()(i, 0) / angle));
+    if (!symmetric_[k])
+      c[static_cast<std::size_t>(6 + i)] = static_cast<std::int32_t>(std::lround(X.linear()(i, 0) / angle));
   }
   return c;
 }

@@ -24,8 +24,8 @@ TimedPath time_path(const Robot& robot, const std::vector<Eigen::VectorXd>& path
   for (std::size_t k = 1; k < path.size(); ++k) {
     double needed = 0;
     for (int i = 0; i < robot.dof(); ++i)
-      needed = std::max(needed,
-                        std::abs(path[k][i] - path[k - 1][i]) / (robot.joint(i).max_velocity * robot.speed_scale));
+      needed =
+          std::max(needed, std::abs(path[k][i] - path[k - 1][i]) / (robot.joint(i).max_velocity * robot.speed_scale));
     if (needed <= 0) continue;
     steps += std::max(1L, static_cast<long>(std::ceil(needed / step_s - 1e-9)));
     timed.t.push_back(static_cast<double>(steps) * step_s);

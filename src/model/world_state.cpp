@@ -3,9 +3,7 @@
 namespace mamo {
 namespace {
 
-std::int32_t rounded(double x) {
-  return static_cast<std::int32_t>(std::lround(std::clamp(x * 1e6, -2.0e9, 2.0e9)));
-}
+std::int32_t rounded(double x) { return static_cast<std::int32_t>(std::lround(std::clamp(x * 1e6, -2.0e9, 2.0e9))); }
 
 }  // namespace
 

@@ -15,8 +15,9 @@ Status check_start(const Problem& problem, CollisionChecker& checker) {
   checker.check(problem.q_start, everything, false, report);
   const auto& links = problem.robot.model->links;
   if (report.self)
-    return invalid(problem, "the start configuration is in collision: links '" + links[report.first_self.first.index()].name +
-                                "' and '" + links[report.first_self.second.index()].name + "' of the robot");
+    return invalid(problem, "the start configuration is in collision: links '" +
+                                links[report.first_self.first.index()].name + "' and '" +
+                                links[report.first_self.second.index()].name + "' of the robot");
   for (ObjectId id : report.touched) {
     const Object& object = problem.scene[id];
     if (object.fixture() && robot_may_touch(object.constraints.touch)) continue;

@@ -4,9 +4,12 @@ namespace mamo::search {
 
 std::string_view to_string(Schedule schedule) {
   switch (schedule) {
-    case Schedule::batch: return "batch";
-    case Schedule::window: return "window";
-    case Schedule::runahead: return "runahead";
+    case Schedule::batch:
+      return "batch";
+    case Schedule::window:
+      return "window";
+    case Schedule::runahead:
+      return "runahead";
   }
   return "unknown";
 }

@@ -9,22 +9,42 @@
 
 namespace mamo::search {
 
-bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel, StopSource* stop) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double, std::milli>(ms));
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool asked_to_stop(const std::atomic<bool>* cancel, StopSource* stop) {
+  return (cancel && cancel->load(std::memory_order_relaxed)) || (stop && stop->stopped());
+}
+
+/// A fixed amount of arithmetic for each millisecond: the same work however often the thread is interrupted.
+bool compute(double ms, const std::atomic<bool>* cancel, StopSource* stop) {
+  constexpr double kStepsPerMs = 200'000;
+  volatile std::uint64_t sink = 1;
+  std::uint64_t x = sink;
+  for (auto left = static_cast<std::int64_t>(ms * kStepsPerMs); left > 0; left -= 20'000) {
+    if (asked_to_stop(cancel, stop)) return false;
+    for (std::int64_t i = std::min<std::int64_t>(left, 20'000); i > 0; --i) x = mix64(x);
+  }
+  sink = x;
+  return true;
+}
+
+bool sleep(double ms, const std::atomic<bool>* cancel, StopSource* stop) {
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double, std::milli>(ms));
   while (Clock::now() < end) {
-    if (cancel && cancel->load(std::memory_order_relaxed)) return false;
-    if (stop && stop->stopped()) return false;
-    const auto slice = std::min(end, Clock::now() + std::chrono::microseconds(500));
-    if (delay == ToyDelay::sleep) {
-      std::this_thread::sleep_until(slice);
-    } else {
-      while (Clock::now() < slice) {
-      }
-    }
+    if (asked_to_stop(cancel, stop)) return false;
+    std::this_thread::sleep_until(std::min(end, Clock::now() + std::chrono::microseconds(500)));
   }
   return true;
+}
+
+}  // namespace
+
+bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel, StopSource* stop) {
+  if (delay == ToyDelay::none) return true;
+  return delay == ToyDelay::sleep ? sleep(ms, cancel, stop) : compute(ms, cancel, stop);
 }
 
 namespace {

@@ -14,7 +14,10 @@ std::int32_t Trace::begin_job(const Need& need, int worker, bool head, double no
   job.worker = worker;
   job.head = head;
   job.taken = now;
-  if (head && awaited_.parent == need.parent && awaited_.edge == need.edge) job.needed = awaited_at_;
+  if (head) {  // needed since it was announced, or since the job that had it was cancelled
+    const bool announced = awaited_.parent == need.parent && awaited_.edge == need.edge;
+    job.needed = announced ? awaited_at_ : now;
+  }
   jobs.push_back(job);
   return static_cast<std::int32_t>(jobs.size() - 1);
 }
@@ -58,9 +61,9 @@ void write_trace(const Trace& trace, std::ostream& out) {
   }
   out << std::setprecision(9);
   for (const TraceJob& j : trace.jobs) {
-    out << "J " << j.state << ' ' << j.edge << ' ' << j.worker << ' ' << j.head << ' ' << j.taken << ' ' << j.done << ' '
-        << j.needed << ' ' << j.committed << ' ' << j.commit << ' ' << j.cpu_s << ' ' << j.costly_s << ' ' << j.valid
-        << ' ' << j.cancelled << ' ' << j.charge << ' ' << j.child << '\n';
+    out << "J " << j.state << ' ' << j.edge << ' ' << j.worker << ' ' << j.head << ' ' << j.taken << ' ' << j.done
+        << ' ' << j.needed << ' ' << j.committed << ' ' << j.commit << ' ' << j.cpu_s << ' ' << j.costly_s << ' '
+        << j.valid << ' ' << j.cancelled << ' ' << j.charge << ' ' << j.child << '\n';
   }
 }
 
@@ -77,7 +80,8 @@ Result<Trace> read_trace(std::istream& in, const std::string& name) {
   std::getline(in, line);
   std::istringstream header(line);
   if (!(header >> word >> trace.weight >> trace.lazy >> trace.threads >> trace.schedule >> trace.wall_s >>
-        trace.start >> states >> jobs) || word != kMagic) {
+        trace.start >> states >> jobs) ||
+      word != kMagic) {
     return bad("a header of nine fields");
   }
   while (std::getline(in, line)) {

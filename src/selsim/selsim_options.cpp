@@ -24,7 +24,8 @@ OptionTable SelSimOptions::table() {
         "where a state also snaps onto the inverse-kinematics solution found from itself: distance to goal (m)");
   t.add("extends", l.extends, 0, 1000, "steps tried from a state towards the nearest goal configurations");
   t.add("extend_step_deg", l.extend_step_deg, 0.1, 360, "length of such a step (deg)");
-  t.add("chains", l.chains.chains, 0, 100, "seeded RRT-Connect paths among fixtures and immovables that states may join");
+  t.add("chains", l.chains.chains, 0, 100,
+        "seeded RRT-Connect paths among fixtures and immovables that states may join");
   t.add("joins", l.joins, 0, 100, "nearest chains that a state may join (the start may join all)");
   t.add("chain_nodes", l.chains.max_nodes, 2, 1000000, "budget of each such path, in tree nodes");
   t.add("heuristic_cell", l.heuristic_cell, 0.005, 0.5, "cell of the breadth-first heuristic (m)");

@@ -8,9 +8,9 @@
 namespace mamo {
 
 struct SelSimOptions {
-  double weight = 100;              // when --weight is not given
+  double weight = 100;               // when --weight is not given
   std::string immovables = "known";  // known | discovered (ALGORITHMS.md, "What the search knows")
-  int max_iterations = 200;         // planning iterations
+  int max_iterations = 200;          // planning iterations
   LatticeOptions lattice;
 
   /// The table bound to this object; docs() shows the values it holds now.

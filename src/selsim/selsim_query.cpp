@@ -32,15 +32,15 @@ void SelSimQuery::prepare() {
   const TrackedPoint point = tracked_point(*kinematics_);
   ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator_->collision(), walls, options_.seed,
                                    settings_.lattice.goal_configurations);
-  std::vector<GoalChain> chains =
-      make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations, options_.seed,
-                       settings_.lattice.chains, context_.stop);
+  std::vector<GoalChain> chains = make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations,
+                                                   options_.seed, settings_.lattice.chains, context_.stop);
   model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), std::move(chains),
                                           point, walls);
 }
 
 SelSimQuery::Search SelSimQuery::search_once() {
-  const ManipulationLattice lattice(problem_, *model_, make_relevant_bodies(problem_, relevant_), banned_, context_.stop);
+  const ManipulationLattice lattice(problem_, *model_, make_relevant_bodies(problem_, relevant_), banned_,
+                                    context_.stop);
   ManipulationLattice::Context scratch{evaluator_.get(), {}};
   search::SearchOptions options;
   options.weight = weight_;
@@ -174,20 +174,25 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
 
 PlanResult& SelSimQuery::stopped() {
   switch (context_.stop->reason()) {
-    case StopReason::interrupted: return finish(PlanStatus::interrupted, "interrupted");
-    case StopReason::memory: return finish(PlanStatus::memory, "the memory limit was reached; --memory-limit raises it");
-    default: return finish(PlanStatus::timeout, "no plan within the time limit; --time-limit raises it");
+    case StopReason::interrupted:
+      return finish(PlanStatus::interrupted, "interrupted");
+    case StopReason::memory:
+      return finish(PlanStatus::memory, "the memory limit was reached; --memory-limit raises it");
+    default:
+      return finish(PlanStatus::timeout, "no plan within the time limit; --time-limit raises it");
   }
 }
 
 PlanResult& SelSimQuery::no_path(const Search& search) {
   switch (search.reason) {
-    case search::EndReason::stopped: return stopped();
+    case search::EndReason::stopped:
+      return stopped();
     case search::EndReason::limit_expansions:
       return finish(PlanStatus::limit, "no plan within the limit on expansions; --max-expansions raises it");
     case search::EndReason::limit_charge:
       return finish(PlanStatus::limit, "no plan within the limit on simulations; --max-simulations raises it");
-    default: break;
+    default:
+      break;
   }
   std::string doubt;
   if (search.counters.pruned_infinite > 0) doubt = "states without a way to the goal in the grid heuristic were pruned";
@@ -205,9 +210,10 @@ PlanResult& SelSimQuery::no_path(const Search& search) {
 PlanResult SelSimQuery::run() {
   prepare();
   if (model_->goal().configurations.empty())
-    return finish(PlanStatus::limit, "no goal configuration is free of collision (" +
-                                         std::to_string(model_->goal().rejected_in_collision) +
-                                         " inverse-kinematics solutions hit the robot itself, a fixture or an immovable)");
+    return finish(PlanStatus::limit,
+                  "no goal configuration is free of collision (" +
+                      std::to_string(model_->goal().rejected_in_collision) +
+                      " inverse-kinematics solutions hit the robot itself, a fixture or an immovable)");
   while (result_.stats.planning_iterations < settings_.max_iterations) {
     const Search found = search_once();
     if (!found.found()) return no_path(found);
@@ -216,7 +222,8 @@ PlanResult SelSimQuery::run() {
     if (found.path.empty())
       return finish(PlanStatus::limit, "the start fulfils the task, but the replay of standing still is refused");
   }
-  return finish(PlanStatus::limit, "no plan within max_iterations planning iterations; --set max_iterations=N raises it");
+  return finish(PlanStatus::limit,
+                "no plan within max_iterations planning iterations; --set max_iterations=N raises it");
 }
 
 }  // namespace mamo

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "selsim/selsim_options.hpp"
+
 #include "mamo/common/hash.hpp"
 #include "mamo/common/stopwatch.hpp"
 #include "mamo/lattice/manipulation_lattice.hpp"
 #include "mamo/search/search_result.hpp"
 #include "mamo/selsim/selsim_planner.hpp"
 #include "mamo/selsim/tracker.hpp"
-#include "selsim/selsim_options.hpp"
 
 namespace mamo {
 

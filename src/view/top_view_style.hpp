@@ -16,7 +16,7 @@ text{font-family:system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-se
 .grid{stroke:#eceff2;stroke-width:1;fill:none}
 .fixture{fill:#eef0f3;stroke:#b4bcc5;stroke-width:1.2}
 .roof{fill:none;stroke:#b4bcc5;stroke-width:1;stroke-dasharray:2 4}
-.body{fill:#8d99a6;fill-opacity:.28;stroke:#8d99a6;stroke-width:.8;stroke-opacity:.6}
+.body{fill:#8d99a6;fill-opacity:.15;stroke:#8d99a6;stroke-width:.8;stroke-opacity:.6}
 .arm0{fill:#52606d;fill-opacity:.14;stroke:#52606d;stroke-width:.9;stroke-opacity:.55}
 .arm1{fill:#7048e8;fill-opacity:.13;stroke:#7048e8;stroke-width:1;stroke-opacity:.65}
 .immovable{fill:#f1b5b5;stroke:#b42318;stroke-width:1.4}

@@ -18,7 +18,8 @@ std::vector<Sweep> sweeps(const Problem& problem, std::uint64_t seed, int count)
   std::vector<Sweep> out;
   while (static_cast<int>(out.size()) < count) {
     const double yaw = random.uniform(-0.5, 0.5);
-    const Eigen::Isometry3d A = fixtures::at(random.uniform(0.5, 0.75), random.uniform(-0.7, -0.3), random.uniform(0.82, 0.9), yaw);
+    const Eigen::Isometry3d A =
+        fixtures::at(random.uniform(0.5, 0.75), random.uniform(-0.7, -0.3), random.uniform(0.82, 0.9), yaw);
     Eigen::Isometry3d B = A;
     B.translation() += Eigen::Vector3d(random.uniform(-0.1, 0.2), random.uniform(-0.15, 0.15), 0);
     const auto a = ik.solve(A, problem.q_start, random.next());
@@ -44,9 +45,11 @@ TEST(EdgeEvaluator, WhatIsValidWithAllObjectsIsValidInEveryProjection) {
       ObjectSet subset = ObjectSet::of_kind(problem.scene, ObjectKind::immovable);
       for (ObjectId id : kit.all.relevant.ids())
         if (random.below(2)) subset.insert(id);
-      const EdgeResult projected = kit.evaluator.evaluate(s.q0, s.q1, make_relevant_bodies(problem, subset), start, nullptr, nullptr);
+      const EdgeResult projected =
+          kit.evaluator.evaluate(s.q0, s.q1, make_relevant_bodies(problem, subset), start, nullptr, nullptr);
       ++compared;
-      EXPECT_TRUE(projected.valid) << "seed " << seed << " " << (projected.violation ? to_string(projected.violation->kind) : "");
+      EXPECT_TRUE(projected.valid) << "seed " << seed << " "
+                                   << (projected.violation ? to_string(projected.violation->kind) : "");
     }
   }
   RecordProperty("compared", compared);

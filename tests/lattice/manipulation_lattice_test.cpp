@@ -33,7 +33,8 @@ TEST(ManipulationLattice, HeuristicIsConsistentOnValidEdges) {
       kit.model->moves(s, moves);
       for (const auto& m : moves) {
         const Eigen::VectorXd next = kit.model->configuration(m.anchor, m.bins);
-        if (!kit.evaluator.evaluate(q, next, kit.all, WorldState::start_of(problem.scene), nullptr, nullptr).valid) continue;
+        if (!kit.evaluator.evaluate(q, next, kit.all, WorldState::start_of(problem.scene), nullptr, nullptr).valid)
+          continue;
         ++edges;
         const search::Cost h_next = reaches(kit.model->goal(), *kit.kinematics, next) ? 0 : kit.model->heuristic(next);
         ASSERT_LE(kit.model->heuristic(q), m.cost + h_next) << "seed " << seed << " action " << m.action;

@@ -9,10 +9,11 @@
 #include <set>
 #include <unordered_map>
 
+#include "support/toy_graphs.hpp"
+
 #include "mamo/common/executor.hpp"
 #include "mamo/common/random.hpp"
 #include "mamo/search/state_table.hpp"
-#include "support/toy_graphs.hpp"
 
 namespace mamo::search {
 namespace {

@@ -3,10 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include "mamo/search/weighted_astar.hpp"
 #include "support/recording_domain.hpp"
 #include "support/search_reference.hpp"
 #include "support/toy_graphs.hpp"
+
+#include "mamo/search/weighted_astar.hpp"
 
 namespace mamo::search {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -14,6 +16,9 @@ namespace {
 
 using Result = SearchResult<ToyState>;
 using Contexts = std::vector<RandomGraph::Context>;
+
+/// tools/check --long sets it: 20 times as many graphs with random delays, and 64 threads.
+bool long_run() { return std::getenv("MAMO_LONG") != nullptr; }
 
 constexpr Schedule kSchedules[] = {Schedule::batch, Schedule::window, Schedule::runahead};
 
@@ -48,29 +53,28 @@ void expect_serial_on_threads(std::uint64_t seed, int threads, bool jitter, Exec
   }
 }
 
-class OnThreads : public testing::TestWithParam<int> {};
+class OnThreads : public testing::TestWithParam<int> {
+ protected:
+  /// 500 graphs as fast as they go, then some with random delays in the evaluations.
+  template <template <class, class> class OrderT>
+  void expect_serial_on_many() {
+    Executor executor(GetParam());
+    const std::uint64_t delayed = long_run() ? 800 : 40;
+    for (std::uint64_t seed = 1; seed <= 500 + delayed && !HasFailure(); ++seed) {
+      expect_serial_on_threads<OrderT>(seed, GetParam(), seed > 500, executor);
+    }
+  }
+};
 
-TEST_P(OnThreads, LazyIsSerial) {
-  Executor executor(GetParam());
-  for (std::uint64_t seed = 1; seed <= 400 && !HasFailure(); ++seed) {
-    expect_serial_on_threads<LazyOrder>(seed, GetParam(), false, executor);
-  }
-  for (std::uint64_t seed = 401; seed <= 430 && !HasFailure(); ++seed) {
-    expect_serial_on_threads<LazyOrder>(seed, GetParam(), true, executor);
-  }
+TEST_P(OnThreads, LazyIsSerial) { expect_serial_on_many<LazyOrder>(); }
+TEST_P(OnThreads, EagerIsSerial) { expect_serial_on_many<EagerOrder>(); }
+
+std::vector<int> thread_counts() {
+  std::vector<int> counts{1, 2, 3, 4, 8, 16};
+  if (long_run()) counts.push_back(64);
+  return counts;
 }
-
-TEST_P(OnThreads, EagerIsSerial) {
-  Executor executor(GetParam());
-  for (std::uint64_t seed = 1; seed <= 400 && !HasFailure(); ++seed) {
-    expect_serial_on_threads<EagerOrder>(seed, GetParam(), false, executor);
-  }
-  for (std::uint64_t seed = 401; seed <= 430 && !HasFailure(); ++seed) {
-    expect_serial_on_threads<EagerOrder>(seed, GetParam(), true, executor);
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Threads, OnThreads, testing::Values(1, 2, 3, 4, 8, 16));
+INSTANTIATE_TEST_SUITE_P(Threads, OnThreads, testing::ValuesIn(thread_counts()));
 
 RandomGraphOptions long_graph() {
   RandomGraphOptions options;
@@ -210,6 +214,33 @@ TEST(ParallelSearch, OneContextIsTheSerialLoop) {
   EXPECT_THROW(parallel_lazy_weighted_astar(domain, std::span(two), {}, parallel), std::invalid_argument);
 }
 
+long resident_kb() {
+  std::ifstream file("/proc/self/statm");
+  long total = 0, resident = 0;
+  file >> total >> resident;
+  return resident * 4;
+}
+
+TEST(ParallelSearch, FiveHundredSearchesOnEightThreadsLeaveNoMemoryBehind) {
+  RandomGraphOptions graph;
+  graph.nodes = 400;
+  graph.labels = 3;
+  graph.heuristic = 0.5;
+  Executor executor(8);
+  ParallelOptions parallel;
+  parallel.executor = &executor;
+  long warm = 0;
+  for (std::uint64_t i = 1; i <= 500; ++i) {
+    graph.seed = i % 50;
+    const RandomGraph domain(graph);
+    Contexts all = contexts(8, i % 5 == 0 ? i : 0);
+    parallel.schedule = kSchedules[i % 3];
+    parallel_lazy_weighted_astar(domain, std::span(all), {}, parallel);
+    if (i == 200) warm = resident_kb();
+  }
+  EXPECT_LT(resident_kb() - warm, 4096) << "kB grown since the 200th search";
+}
+
 TEST(ParallelSearch, ProgressComesOnTheCallersThread) {
   RandomGraphOptions graph = long_graph();
   graph.delay = ToyDelay::sleep;
@@ -238,9 +269,9 @@ TEST(ParallelSearch, TraceAccountsForEveryEvaluationAndCanBeReadBack) {
     parallel.trace = &trace;
     ParallelStats stats;
     const Result result = parallel_lazy_weighted_astar(domain, std::span(all), {}, parallel, &stats);
-    EXPECT_EQ(static_cast<std::int64_t>(trace.jobs.size()), stats.evaluations);
-    std::int64_t used = 0;
+    std::int64_t used = 0, begun = 0;
     for (const TraceJob& job : trace.jobs) {
+      begun += job.done >= 0;
       used += job.commit >= 0;
       if (job.commit >= 0) {
         EXPECT_GE(job.needed, 0);
@@ -248,6 +279,7 @@ TEST(ParallelSearch, TraceAccountsForEveryEvaluationAndCanBeReadBack) {
       }
     }
     EXPECT_EQ(used, result.counters.evaluations);
+    EXPECT_EQ(begun, stats.evaluations);
     std::stringstream file;
     write_trace(trace, file);
     const auto read = read_trace(file, "trace");

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "mamo/search/lazy_weighted_astar.hpp"
-#include "mamo/search/weighted_astar.hpp"
 #include "support/interleaving.hpp"
 #include "support/same_result.hpp"
 #include "support/toy_graphs.hpp"
+
+#include "mamo/search/lazy_weighted_astar.hpp"
+#include "mamo/search/weighted_astar.hpp"
 
 namespace mamo::search {
 namespace {
@@ -34,6 +35,7 @@ void expect_serial_under_interleavings(std::uint64_t seed) {
     how.workers = kWorkers[random.below(6)];
     how.seed = seed;
     how.slow_head = random.below(2) ? 0.9 : 0.0;
+    how.fickle = random.below(3) == 0;
     SCOPED_TRACE(testing::Message() << "seed " << seed << " " << to_string(schedule) << " batch " << parallel.batch
                                     << " workers " << how.workers);
     ParallelStats stats;

@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/toy_graphs.hpp"
+
 #include "mamo/search/eager_order.hpp"
 #include "mamo/search/lazy_order.hpp"
 #include "mamo/search/parallel_search.hpp"
 #include "mamo/search/toy_clutter.hpp"
 #include "mamo/search/trace_domain.hpp"
-#include "support/toy_graphs.hpp"
 
 namespace mamo::search {
 namespace {

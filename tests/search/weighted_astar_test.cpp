@@ -6,9 +6,10 @@
 #include <functional>
 #include <ostream>
 
-#include "mamo/search/lazy_weighted_astar.hpp"
 #include "support/search_reference.hpp"
 #include "support/toy_graphs.hpp"
+
+#include "mamo/search/lazy_weighted_astar.hpp"
 
 namespace mamo::search {
 namespace {
@@ -246,10 +247,7 @@ TEST_P(WeightedAStar, ReportsProgressAndLetsExceptionsThrough) {
 }
 
 TEST_P(WeightedAStar, WalksAroundTheWallsOfAGrid) {
-  const GridDomain grid({"S.......",
-                         "######..",
-                         "G.......",
-                         "........"});
+  const GridDomain grid({"S.......", "######..", "G.......", "........"});
   const Result result = GetParam().run_grid(grid, weight(1));
   ASSERT_TRUE(result.found());
   EXPECT_EQ(result.cost, 10 * 10 + 14 * 2);

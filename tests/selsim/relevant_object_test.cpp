@@ -9,7 +9,8 @@ namespace {
 struct RelevantObjectTest : testing::Test {
   RelevantObjectTest() {
     scene.objects.push_back(fixtures::fixture_box("table", {0, 0, 0}, {1, 1, 0.1}, Touch::support));
-    for (int k = 1; k <= 5; ++k) scene.objects.push_back(fixtures::standing_cylinder("o" + std::to_string(k), k, 0, 0.03, 0.1));
+    for (int k = 1; k <= 5; ++k)
+      scene.objects.push_back(fixtures::standing_cylinder("o" + std::to_string(k), k, 0, 0.03, 0.1));
   }
   static Interaction pair(int a, int b, double t) { return {ObjectId(a), ObjectId(b), t}; }
   ObjectSet set(std::initializer_list<int> ids) const {
@@ -37,13 +38,15 @@ TEST_F(RelevantObjectTest, AtEqualDepthTheEarlierContactComesFirstThenTheSmaller
 }
 
 TEST_F(RelevantObjectTest, RobotAndFixturesAreNoNodes) {
-  const std::vector<Interaction> p = {{kRobot, ObjectId(3), 0.0}, {kRobot, ObjectId(5), 0.0}, pair(0, 3, 0.0), pair(0, 4, 0.0)};
+  const std::vector<Interaction> p = {
+      {kRobot, ObjectId(3), 0.0}, {kRobot, ObjectId(5), 0.0}, pair(0, 3, 0.0), pair(0, 4, 0.0)};
   EXPECT_EQ(relevant_object(p, ObjectId(3), set({3}), scene), kNoObject);
   EXPECT_EQ(relevant_object(p, ObjectId(0), set({}), scene), kNoObject);
 }
 
 TEST_F(RelevantObjectTest, ACycleOfRelevantObjectsEnds) {
-  EXPECT_EQ(relevant_object({pair(1, 2, 0.1), pair(2, 3, 0.2), pair(1, 3, 0.3)}, ObjectId(3), set({1, 2, 3}), scene), kNoObject);
+  EXPECT_EQ(relevant_object({pair(1, 2, 0.1), pair(2, 3, 0.2), pair(1, 3, 0.3)}, ObjectId(3), set({1, 2, 3}), scene),
+            kNoObject);
 }
 
 }  // namespace

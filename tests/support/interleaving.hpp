@@ -14,6 +14,7 @@ namespace mamo::search {
 struct Interleaving {
   int workers = 2;
   std::uint64_t seed = 1;
+  bool fickle = false;   // jobs are given back now and then
   double slow_head = 0;  // chance that a worker with the needed edge is passed over ("slowest edge first")
 };
 
@@ -65,6 +66,11 @@ SearchResult<typename D::State> run_interleaved(const D& domain, const SearchOpt
       continue;
     }
     if (worker.job->head && random.uniform() < how.slow_head) continue;
+    if (how.fickle && random.below(8) == 0) {
+      worker.job.reset();
+      scheduler.give_back(static_cast<int>(w));
+      continue;
+    }
     if (scheduler.cancel_flag(static_cast<int>(w))->load() && random.below(2) == 0) {
       worker.finished = {};
       worker.finished.outcome.report.cancelled = true;

@@ -1,10 +1,11 @@
 // A reach problem in code: the PR2-like arm before the cluttered shelf, goal inside it.
 #pragma once
 
+#include "support/fixtures.hpp"
+
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/kinematics/inverse_kinematics.hpp"
 #include "mamo/lattice/manipulation_lattice.hpp"
-#include "support/fixtures.hpp"
 
 namespace mamo::fixtures {
 
@@ -16,7 +17,8 @@ inline Problem reach_problem(int movables, int immovables, std::uint64_t seed) {
   problem.q_start = problem.robot.posture;
   ReachPose task;
   RandomStream random(seed, {0x676f616c});
-  task.X_WT = at(random.uniform(0.6, 0.8), random.uniform(-0.7, -0.3), random.uniform(0.85, 0.95), random.uniform(-0.6, 0.6));
+  task.X_WT =
+      at(random.uniform(0.6, 0.8), random.uniform(-0.7, -0.3), random.uniform(0.85, 0.95), random.uniform(-0.6, 0.6));
   problem.task = task;
   return problem;
 }
@@ -32,7 +34,8 @@ struct LatticeKit {
     for (ObjectId id : all.forbidden.ids())
       if (!p.scene[id].movable()) walls.insert(id);
     const TrackedPoint point = tracked_point(*kinematics);
-    ReachGoal goal = make_reach_goal(p, *kinematics, point, evaluator.collision(), walls, 1, options.goal_configurations);
+    ReachGoal goal =
+        make_reach_goal(p, *kinematics, point, evaluator.collision(), walls, 1, options.goal_configurations);
     std::vector<GoalChain> chains =
         make_goal_chains(p, evaluator.collision(), walls, goal.configurations, 1, options.chains, nullptr);
     model = std::make_unique<LatticeModel>(p, kinematics, options, std::move(goal), std::move(chains), point, walls);

@@ -1,6 +1,7 @@
 // Predicts, from the trace of one search, how it would have gone with 1 to 128 workers.
 //
 //   scaling TRACE [--workers 1,2,4,...] [--locked-us X] [--json]
+//   scaling --toy SEED ...      records a toy search with 2 threads first
 //
 // Runs the real scheduler in virtual time over the recorded evaluations (thread CPU time of each). Prints work and
 // span first: their ratio is about the most that any number of workers can win while keeping the serial order.
@@ -14,6 +15,8 @@
 
 #include "mamo/search/eager_order.hpp"
 #include "mamo/search/lazy_order.hpp"
+#include "mamo/search/parallel_search.hpp"
+#include "mamo/search/toy_clutter.hpp"
 #include "mamo/search/trace_domain.hpp"
 #include "mamo/search/virtual_time.hpp"
 
@@ -21,12 +24,13 @@ namespace {
 
 using namespace mamo::search;
 
-constexpr char kUsage[] = "usage: scaling TRACE [--workers 1,2,4,...] [--locked-us MICROSECONDS] [--json]\n";
+constexpr char kUsage[] = "usage: scaling TRACE|--toy SEED [--workers 1,2,4,...] [--locked-us MICROSECONDS] [--json]\n";
 
 struct Arguments {
   std::string trace;
   std::vector<int> workers{1, 2, 4, 8, 16, 32, 64, 128};
-  double locked_us = 4;
+  double locked_us = 1;
+  long toy = -1;
   bool json = false;
 };
 
@@ -51,13 +55,15 @@ Arguments parse(int argc, char** argv) {
       }
     } else if (word == "--locked-us" && more) {
       a.locked_us = std::atof(argv[++i]);
+    } else if (word == "--toy" && more) {
+      a.toy = std::atol(argv[++i]);
     } else if (a.trace.empty() && word[0] != '-') {
       a.trace = word;
     } else {
       wrong("what is " + word + "?");
     }
   }
-  if (a.trace.empty()) wrong("no trace given");
+  if (a.trace.empty() == (a.toy < 0)) wrong("one trace is needed, or --toy");
   return a;
 }
 
@@ -89,16 +95,18 @@ int predict(const Trace& trace, const Arguments& arguments) {
   }
   const std::size_t evaluations = work.commits.size();
   if (arguments.json) {
-    std::printf("{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
-                "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
-                arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
-                trace.schedule.c_str(), trace.wall_s);
+    std::printf(
+        "{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
+        "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
+        arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
+        trace.schedule.c_str(), trace.wall_s);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const Row& r = rows[i];
-      std::printf("%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
-                  "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
-                  i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds,
-                  work.work_s / r.seconds, r.clairvoyant, r.stall, r.idle_share, r.efficiency);
+      std::printf(
+          "%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
+          "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
+          i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds,
+          r.clairvoyant, r.stall, r.idle_share, r.efficiency);
     }
     std::printf("\n]}\n");
     return 0;
@@ -116,16 +124,38 @@ int predict(const Trace& trace, const Arguments& arguments) {
   return 0;
 }
 
+/// The trace file, or the record of a toy search whose evaluations compute for 15 microseconds to 10 milliseconds.
+mamo::Result<Trace> input(const Arguments& arguments) {
+  if (arguments.toy < 0) {
+    std::ifstream file(arguments.trace);
+    if (!file) return mamo::Error{arguments.trace + ": cannot be read"};
+    return read_trace(file, arguments.trace);
+  }
+  ToyClutterOptions toy;
+  toy.seed = static_cast<std::uint64_t>(arguments.toy);
+  toy.delay = ToyDelay::busy;
+  toy.scale = 0.05;
+  toy.side = 40;
+  toy.walls = 16;
+  toy.wall_radius = 9;
+  toy.movables = 25;
+  toy.movable_radius = 7;
+  std::vector<ToyClutter::Context> contexts(2);
+  Trace trace;
+  ParallelOptions parallel;
+  parallel.trace = &trace;
+  SearchOptions options;
+  options.weight = 3;
+  options.max_evaluations = 5'000;
+  parallel_lazy_weighted_astar(ToyClutter(toy), std::span(contexts), options, parallel);
+  return trace;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
-  std::ifstream file(arguments.trace);
-  if (!file) {
-    std::fprintf(stderr, "%s: cannot be read\n", arguments.trace.c_str());
-    return 3;
-  }
-  const auto trace = read_trace(file, arguments.trace);
+  const auto trace = input(arguments);
   if (!trace.ok()) {
     std::fprintf(stderr, "%s\n", trace.error().message.c_str());
     return 3;

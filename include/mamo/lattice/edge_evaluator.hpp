@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -35,7 +36,7 @@ struct EdgeResult {
   double settle_s = 0;                    // wait after the motion
   std::vector<Interaction> interactions;  // empty unless simulated
   bool second_order = false;
-  std::optional<Violation> violation;     // why invalid; kind self_collision names no object
+  std::optional<Violation> violation;  // why invalid; kind self_collision names no object
 };
 
 /// One per worker: collision managers and a physics world over shared immutable models. Pure: the outcome of

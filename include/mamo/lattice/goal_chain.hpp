@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+
 #include <cstdint>
 #include <vector>
 
@@ -19,11 +20,11 @@ struct GoalChain {
 };
 
 struct GoalChainOptions {
-  int chains = 3;              // each from a random stream of its own
-  int max_nodes = 4000;        // per chain, both trees together; a chain that is not found by then is left out
-  double step = 0.25;          // rad or m (Euclidean) of one tree edge
-  double spacing = 0.5;        // between neighbours of a finished chain
-  int shortcuts = 60;          // attempts to shorten a chain
+  int chains = 3;        // each from a random stream of its own
+  int max_nodes = 4000;  // per chain, both trees together; a chain that is not found by then is left out
+  double step = 0.25;    // rad or m (Euclidean) of one tree edge
+  double spacing = 0.5;  // between neighbours of a finished chain
+  int shortcuts = 60;    // attempts to shorten a chain
 };
 
 /// Depends on the robot, the bodies in `walls` (at their start poses), start, goals and seed only: movable objects

@@ -98,11 +98,11 @@ class LatticeModel {
   std::vector<GoalChain> chains_;
   TrackedPoint point_;
   GridHeuristic grid_;
-  Eigen::VectorXd resolution_;           // rad or m per bin
+  Eigen::VectorXd resolution_;              // rad or m per bin
   std::vector<std::int32_t> long_, short_;  // bins of a primitive, per joint
-  search::Cost shortest_ = 0;            // cost of the cheapest primitive
+  search::Cost shortest_ = 0;               // cost of the cheapest primitive
   search::Cost cost_per_cell_ = 0;
-  Eigen::Vector3d p_start_;              // tracked point at the start (m)
+  Eigen::Vector3d p_start_;  // tracked point at the start (m)
 };
 
 /// EdgeReport::tag of an edge that was refused, and the name under which it is counted in a result

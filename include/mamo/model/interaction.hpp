@@ -11,22 +11,22 @@ namespace mamo {
 
 /// Constraint kinds, named in results by to_string().
 enum class ViolationKind {
-  robot_touch,         // the robot touched a body it may not touch; object = that body
-  object_touch,        // object was touched by other, or touched a fixture it may not
-  tilt,                // rad
-  speed,               // m/s
-  left_support,        // value: metres below or beside the support
-  displacement,        // m
-  immovable_moved,     // m
-  penetration,         // m
-  not_at_rest,         // m/s at the settle limit
-  self_collision,      // verify and the planner's start check
-  joint_limit,         // rad or m
-  joint_velocity,      // rad/s or m/s
-  discontinuity,       // rad or m between successive points or segments
-  wrong_start,         // rad or m
-  objects_mismatch,    // objects_after of the plan differs from the replay (m)
-  task_not_done,       // m or rad from the goal
+  robot_touch,       // the robot touched a body it may not touch; object = that body
+  object_touch,      // object was touched by other, or touched a fixture it may not
+  tilt,              // rad
+  speed,             // m/s
+  left_support,      // value: metres below or beside the support
+  displacement,      // m
+  immovable_moved,   // m
+  penetration,       // m
+  not_at_rest,       // m/s at the settle limit
+  self_collision,    // verify and the planner's start check
+  joint_limit,       // rad or m
+  joint_velocity,    // rad/s or m/s
+  discontinuity,     // rad or m between successive points or segments
+  wrong_start,       // rad or m
+  objects_mismatch,  // objects_after of the plan differs from the replay (m)
+  task_not_done,     // m or rad from the goal
   malformed_plan,
 };
 std::string_view to_string(ViolationKind kind);

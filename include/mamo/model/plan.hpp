@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -56,7 +57,7 @@ struct PlanStats {
 
 struct PlanResult {
   PlanStatus status = PlanStatus::error;
-  std::string reason;     // one line; empty when solved
+  std::string reason;  // one line; empty when solved
   std::string planner;
   std::uint64_t seed = 1;
   int threads = 1;

@@ -65,9 +65,9 @@ struct Progress {
 
 /// What a planner may use besides its input. All outlive the call.
 struct PlanContext {
-  StopSource* stop = nullptr;                         // never null
-  const PlanJudge* judge = nullptr;                   // null: found plans are returned unverified
-  std::function<void(const Progress&)> on_progress;   // called on the caller's thread, may be empty
+  StopSource* stop = nullptr;                        // never null
+  const PlanJudge* judge = nullptr;                  // null: found plans are returned unverified
+  std::function<void(const Progress&)> on_progress;  // called on the caller's thread, may be empty
 };
 
 /// Reusable: a second query on the same object starts warm. Not thread-safe; use one per thread.

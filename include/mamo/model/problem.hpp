@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <map>
 #include <string>
 #include <variant>
@@ -28,8 +29,8 @@ struct ReachJoints {
 struct Retrieve {
   ObjectId object;
   Eigen::Isometry3d X_WT_pregrasp = Eigen::Isometry3d::Identity();  // of the tip link
-  Eigen::VectorXd home;         // group joints
-  double home_tolerance = 0.0175;  // rad
+  Eigen::VectorXd home;                                             // group joints
+  double home_tolerance = 0.0175;                                   // rad
 };
 using Task = std::variant<ReachPose, ReachJoints, Retrieve>;
 

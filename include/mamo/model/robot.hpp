@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <limits>
 #include <memory>
 #include <optional>
@@ -27,8 +28,8 @@ struct Joint {
   std::string name;
   JointType type = JointType::fixed;
   LinkId parent, child;
-  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();  // joint frame in parent link at value 0
-  Eigen::Vector3d axis{1, 0, 0};                           // unit, in the joint frame
+  Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();   // joint frame in parent link at value 0
+  Eigen::Vector3d axis{1, 0, 0};                            // unit, in the joint frame
   double lower = -std::numeric_limits<double>::infinity();  // rad or m; infinite for continuous
   double upper = std::numeric_limits<double>::infinity();
   double max_velocity = 1.0;  // rad/s or m/s
@@ -60,7 +61,7 @@ struct RobotModel {
   std::string source;  // path of the URDF
   std::vector<Link> links;
   std::vector<Joint> joints;
-  int variables = 0;                   // size of a full joint vector
+  int variables = 0;                    // size of a full joint vector
   std::vector<JointId> variable_joint;  // joint of each variable
 
   /// Invalid id when there is none of that name.
@@ -78,9 +79,9 @@ struct PlanningGroup {
 struct Robot {
   std::shared_ptr<const RobotModel> model;
   PlanningGroup group;
-  Eigen::VectorXd posture;                              // full joint vector; group entries are those of the start
+  Eigen::VectorXd posture;                                 // full joint vector; group entries are those of the start
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // root link in world
-  double speed_scale = 0.1;                             // of the velocity limits
+  double speed_scale = 0.1;                                // of the velocity limits
   /// Pairs of links to test against each other (first < second), after SRDF or sampling.
   std::vector<std::pair<LinkId, LinkId>> self_pairs;
   /// Pairs that were disabled because they always collide when sampled or collide at the start; printed.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -34,10 +35,10 @@ struct InteractionConstraints {
 struct Object {
   std::string id;  // unique
   ObjectKind kind = ObjectKind::movable;
-  std::vector<PlacedShape> shapes;  // at least one; several shapes are one rigid body
+  std::vector<PlacedShape> shapes;                         // at least one; several shapes are one rigid body
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();  // at the start
-  double mass = 0;      // kg; fixtures 0. An immovable of mass 0 is static
-  double friction = 0.8;  // coefficient; Bullet multiplies the two of a pair
+  double mass = 0;                                         // kg; fixtures 0. An immovable of mass 0 is static
+  double friction = 0.8;                                   // coefficient; Bullet multiplies the two of a pair
   InteractionConstraints constraints;
 
   bool fixture() const { return kind == ObjectKind::fixture; }
@@ -48,10 +49,10 @@ struct Object {
 
 /// Values that decide what the simulator computes; part of the problem, so that a result names its physics.
 struct PhysicsSettings {
-  double step = 1.0 / 120.0;     // s
-  int iterations = 20;           // of the sequential-impulse solver
-  double robot_friction = 0.5;   // coefficient of every link
-  double settle_time = 2.0;      // s, the longest wait for rest after a motion
+  double step = 1.0 / 120.0;    // s
+  int iterations = 20;          // of the sequential-impulse solver
+  double robot_friction = 0.5;  // coefficient of every link
+  double settle_time = 2.0;     // s, the longest wait for rest after a motion
 };
 
 /// Penetration beyond this is physically implausible whoever planned it (ALGORITHMS.md). m.

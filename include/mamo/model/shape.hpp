@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <array>
 #include <memory>
 #include <string>
@@ -22,12 +23,12 @@ struct Sphere {
 };
 /// A closed convex polytope, counter-clockwise triangles seen from outside. Made by io from a mesh file.
 struct ConvexHull {
-  std::vector<Eigen::Vector3d> vertices;          // in the shape's frame (m), scale applied
-  std::vector<std::array<int, 3>> triangles;      // indices into vertices
-  double volume = 0;                              // m^3
-  Eigen::Vector3d centroid{0, 0, 0};              // of the solid (m)
-  std::string source;                             // path of the mesh, for messages and for export
-  Eigen::Vector3d scale{1, 1, 1};                 // as given with the source
+  std::vector<Eigen::Vector3d> vertices;      // in the shape's frame (m), scale applied
+  std::vector<std::array<int, 3>> triangles;  // indices into vertices
+  double volume = 0;                          // m^3
+  Eigen::Vector3d centroid{0, 0, 0};          // of the solid (m)
+  std::string source;                         // path of the mesh, for messages and for export
+  Eigen::Vector3d scale{1, 1, 1};             // as given with the source
 };
 /// A mesh collides as its convex hull. Shared: geometry is immutable and used by every worker.
 struct Mesh {

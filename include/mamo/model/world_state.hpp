@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace mamo {
 /// A pose rounded to 1e-6 m and 1e-6 per quaternion component (sign made canonical). The integers are the
 /// state; dequantise() is a pure function of them.
 struct QuantisedPose {
-  std::array<std::int32_t, 3> p{0, 0, 0};        // micrometres
+  std::array<std::int32_t, 3> p{0, 0, 0};           // micrometres
   std::array<std::int32_t, 4> q{0, 0, 0, 1000000};  // x, y, z, w times 1e6
   friend auto operator<=>(const QuantisedPose&, const QuantisedPose&) = default;
 };

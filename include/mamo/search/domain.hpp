@@ -38,7 +38,7 @@ struct EdgeOutcome : EdgeReport {
 /// are cheap and inline; evaluate() may take milliseconds of physics and must be a pure function of
 /// (state, action): the outcome may not depend on the context's past, on threads or on time.
 ///
-/// A state has two keys (ALGORITHMS.md): the exact one, identity, `a == b`; and its class, which decides
+/// A state has two keys: the exact one, identity, `a == b`; and its class, which decides
 /// duplicates: a class closes when its first member commits. same_class is an equivalence coarser than ==.
 ///
 /// `cancel` may be null. An evaluation that can last more than a few milliseconds polls it, and the query's

@@ -20,14 +20,13 @@ enum class CellPhase : std::uint8_t {
 
 struct Cell {
   CellPhase phase = CellPhase::fresh;
-  bool failed = false;          // the evaluation threw; the exception is raised if its turn comes
-  std::int32_t worker = -1;     // while running
-  std::int32_t round = -1;      // of schedule `batch`
-  std::int32_t trace = -1;      // job in the trace
-  float seconds = 0;            // what the evaluation took, if measured
-  StateId known = kNoState;     // the only child it can have, if the domain predicts one
-  StateId child = kNoState;     // when done and valid
-  EdgeReport report;            // when done
+  bool failed = false;           // done: the evaluation threw; the exception is raised if its turn comes
+  bool valid = false;            // done
+  std::int32_t slot = -1;        // running: of the worker
+  std::int32_t round = -1;       // of schedule `batch`
+  std::int32_t evaluation = -1;  // running or done: the scheduler's record of it
+  StateId known = kNoState;      // the only child it can have, if the domain predicts one
+  StateId child = kNoState;      // done and valid
 };
 
 struct Expansion {

@@ -35,7 +35,7 @@ namespace mamo::search {
 ///   next.store             release (in a CAS): the new table's zeroed slots and mask are visible with the pointer.
 ///   next.load              acquire: pairs with it. Whoever reads kFrozen also sees next != null: the freezer had read
 ///                          it before its releasing CAS, and the reader's load of the slot acquires that.
-///   root.load              acquire: pairs with the CAS that promotes. An old root is no error: it leads to the new one.
+///   root.load              acquire: pairs with the CAS that promotes. An old root leads to the new one.
 ///   moved, promotion       sequentially consistent: of two threads that finish two tables at once, at least one sees
 ///                          the other's, so that root is promoted past both. Only speed is at stake.
 /// No ABA: nothing is removed; tables live as long as the index. find() is wait-free but for growth, which can add a
@@ -137,16 +137,16 @@ class LockFreeIndex {
     /// CAS 0 -> desired; on failure `seen` is what is there.
     bool claim(std::size_t slot, std::uint64_t& seen, std::uint64_t desired) {
       seen = kEmpty;
-      return std::atomic_ref<std::uint64_t>(words[slot]).compare_exchange_strong(
-          seen, desired, std::memory_order_release, std::memory_order_acquire);
+      return std::atomic_ref<std::uint64_t>(words[slot])
+          .compare_exchange_strong(seen, desired, std::memory_order_release, std::memory_order_acquire);
     }
     Table* next_table() const { return next.load(std::memory_order_acquire); }
 
     const std::size_t mask;
-    std::uint64_t* const words;               // calloc: untouched pages cost nothing
-    std::atomic<Table*> next{nullptr};        // set once, when growth begins
-    std::atomic<std::size_t> taken{0};        // chunks handed out for moving: slots so far
-    std::atomic<std::size_t> moved{0};        // slots moved
+    std::uint64_t* const words;         // calloc: untouched pages cost nothing
+    std::atomic<Table*> next{nullptr};  // set once, when growth begins
+    std::atomic<std::size_t> taken{0};  // chunks handed out for moving: slots so far
+    std::atomic<std::size_t> moved{0};  // slots moved
   };
 
   static std::size_t round_up(std::size_t slots) {
@@ -156,7 +156,9 @@ class LockFreeIndex {
   }
   /// Also the home slot, in its low bits: so a word can be moved without its hash.
   static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(mix64(hash) >> 32); }
-  static std::int32_t id_of(std::uint64_t word) { return static_cast<std::int32_t>(static_cast<std::uint32_t>(word) - 1u); }
+  static std::int32_t id_of(std::uint64_t word) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(word) - 1u);
+  }
 
   /// Moves one chunk of a table that has a successor, if any is left.
   void help_move(Table& table) {

@@ -13,7 +13,7 @@ namespace mamo::search {
 
 struct Trace;
 
-/// What workers may evaluate before its turn (PARALLEL.md section 2.3; the header of Scheduler says how):
+/// What workers may evaluate before its turn:
 ///   batch     the K best entries of OPEN, then everybody waits until the order asks for another edge;
 ///   window    the best of OPEN, at any time;
 ///   runahead  also the edges of states that are evaluated but not committed.
@@ -33,10 +33,10 @@ struct ParallelOptions {
 
 /// Differs from run to run. Times are thread CPU time (s), summed over workers.
 struct ParallelStats {
-  std::int64_t evaluations = 0;  // begun, whatever became of them
-  std::int64_t cancelled = 0;    // stopped on the way
-  std::int64_t used = 0;         // committed
-  std::int64_t charge = 0;       // EdgeReport::charge of all that were evaluated
+  std::int64_t evaluations = 0;                               // begun, whatever became of them
+  std::int64_t cancelled = 0;                                 // stopped on the way
+  std::int64_t used = 0;                                      // committed
+  std::int64_t charge = 0;                                    // EdgeReport::charge of all that were evaluated
   std::int64_t heads = 0, heads_done = 0, heads_running = 0;  // how the order's needs were found when first asked for
   double evaluation_s = 0, used_s = 0;
   double efficiency() const { return evaluation_s > 0 ? used_s / evaluation_s : 1.0; }

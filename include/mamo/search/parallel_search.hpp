@@ -16,12 +16,16 @@
 
 namespace mamo::search {
 
-/// Drives a Scheduler with one worker per context. Every worker runs the same loop: take a job under the lock,
-/// evaluate it unlocked (intern the child and generate its successors there too), hand it in under the lock, which
-/// commits whatever can be committed. Workers without anything to do sleep on a condition variable; nobody spins.
+/// Drives a Scheduler with one worker per context. Every worker runs the same loop: take a batch of jobs under the
+/// lock, evaluate them unlocked (intern the children and generate their successors there too), hand them in under the
+/// lock, which commits whatever can be committed. Workers without anything to do sleep on a condition variable;
+/// nobody spins.
 ///
-/// The lock is held for a few microseconds per job; a job should be worth ten times that. Stops: the source is asked
-/// before every job, and evaluations poll it themselves (domain.hpp), as well as their cancel flag.
+/// The lock is held for about a microsecond per job. A batch is one job, unless jobs have lately been shorter than
+/// kBatchSeconds: then as many as fill that time. A batch is handed in early when the order comes to one of its edges.
+///
+/// Stops: the source is asked before every batch, and evaluations poll it themselves (domain.hpp), as well as their
+/// cancel flag.
 template <template <class, class> class OrderT, Domain D>
 class ParallelSearch {
  public:
@@ -36,7 +40,7 @@ class ParallelSearch {
         parallel_(parallel),
         measured_(parallel.measure || parallel.trace),
         table_(domain),
-        scheduler_(domain, table_, options, parallel, static_cast<int>(contexts.size())),
+        scheduler_(domain, table_, options, parallel, static_cast<int>(contexts.size()), kMaxBatch),
         begun_(StopSource::Clock::now()) {}
 
   /// Once. Throws what an evaluation threw whose turn had come.
@@ -70,8 +74,23 @@ class ParallelSearch {
     executor.run([this](WorkerId w) { work(w.value); });
   }
 
-  void work(int w) {
+  static constexpr int kMaxBatch = 8;
+  static constexpr double kBatchSeconds = 100e-6;
+
+  /// A worker's own things.
+  struct Worker {
+    int index = 0;
     typename StateTable<D>::Writer writer;
+    std::vector<typename Sched::Job> jobs;           // in slots index * kMaxBatch + 0, 1, ...
+    std::vector<typename Sched::Finished> finished;  // of the first jobs, not handed in yet
+    std::size_t handed_in = 0;
+    double seconds_per_job = kBatchSeconds;  // lately; decides the size of a batch, no result
+    int slot(std::size_t job) const { return index * kMaxBatch + static_cast<int>(job); }
+  };
+
+  void work(int w) {
+    Worker worker;
+    worker.index = w;
     std::unique_lock lock(mutex_);
     try {
       for (std::uint32_t step = 0; !scheduler_.ended(); ++step) {
@@ -79,8 +98,7 @@ class ParallelSearch {
           scheduler_.abort(EndReason::stopped);
           break;
         }
-        const auto job = scheduler_.take(w, now());
-        if (!job) {
+        if (!take_batch(worker)) {
           ++idle_;
           work_.wait(lock);
           --idle_;
@@ -91,9 +109,7 @@ class ParallelSearch {
         const SearchProgress progress = report ? scheduler_.progress() : SearchProgress{};
         lock.unlock();
         if (report) options_.on_progress(progress);
-        auto finished = perform(w, writer, *job);
-        lock.lock();
-        scheduler_.finish(w, std::move(finished), now());
+        perform_batch(worker, lock);
       }
     } catch (...) {
       if (!lock) lock.lock();
@@ -103,18 +119,74 @@ class ParallelSearch {
     work_.notify_all();
   }
 
+  /// Locked. False: there is nothing to do for now. What the order waits for is taken alone: its outcome decides.
+  bool take_batch(Worker& worker) {
+    worker.jobs.clear();
+    worker.finished.clear();
+    worker.handed_in = 0;
+    const double fitting = std::clamp(kBatchSeconds / worker.seconds_per_job, 1.0, 1.0 * kMaxBatch);
+    const auto size = static_cast<std::size_t>(fitting);
+    while (worker.jobs.size() < size && (worker.jobs.empty() || !worker.jobs.back().head)) {
+      const auto job = scheduler_.take(worker.slot(worker.jobs.size()), now());
+      if (!job) break;
+      worker.jobs.push_back(*job);
+    }
+    return !worker.jobs.empty();
+  }
+
+  /// Begins unlocked, ends locked with everything handed in or given back.
+  void perform_batch(Worker& worker, std::unique_lock<std::mutex>& lock) {
+    const auto begun = StopSource::Clock::now();
+    while (worker.finished.size() < worker.jobs.size()) {
+      const std::size_t i = worker.finished.size();
+      worker.finished.push_back(perform(worker, worker.slot(i), worker.jobs[i]));
+      if (!awaited(worker)) continue;
+      if (i + 1 == worker.jobs.size()) break;
+      lock.lock();
+      hand_in(worker);
+      if (scheduler_.head_waits()) break;
+      lock.unlock();
+    }
+    const double spent = std::chrono::duration<double>(StopSource::Clock::now() - begun).count();
+    const double each = std::max(1e-7, spent / static_cast<double>(worker.finished.size()));
+    worker.seconds_per_job += 0.2 * (each - worker.seconds_per_job);
+    if (!lock) lock.lock();
+    hand_in(worker);
+    while (worker.jobs.size() > worker.finished.size()) {
+      worker.jobs.pop_back();
+      scheduler_.give_back(worker.slot(worker.jobs.size()));
+    }
+  }
+  bool awaited(const Worker& worker) const {
+    for (std::size_t k = worker.handed_in; k < worker.jobs.size(); ++k) {
+      if (scheduler_.awaited(worker.slot(k))) return true;
+    }
+    return false;
+  }
+  /// Locked.
+  void hand_in(Worker& worker) {
+    for (; worker.handed_in < worker.finished.size(); ++worker.handed_in) {
+      scheduler_.finish(worker.slot(worker.handed_in), std::move(worker.finished[worker.handed_in]), now());
+    }
+  }
+
   /// Unlocked.
-  typename Sched::Finished perform(int w, typename StateTable<D>::Writer& writer, const typename Sched::Job& job) {
+  typename Sched::Finished perform(Worker& worker, int slot, const typename Sched::Job& job) {
+    Context& context = contexts_[static_cast<std::size_t>(worker.index)];
+    const std::atomic<bool>* cancel = scheduler_.cancel_flag(slot);
     typename Sched::Finished finished;
+    if (cancel->load(std::memory_order_relaxed)) {  // in a batch, before its turn came
+      finished.outcome.report.cancelled = true;
+      return finished;
+    }
     const double begun = measured_ ? thread_cpu_s() : 0;
     if (!job.generates()) {
       try {
-        const auto evaluated = domain_.evaluate(contexts_[static_cast<std::size_t>(w)], table_.state(job.need.parent),
-                                                job.need.action, scheduler_.cancel_flag(w));
+        const auto evaluated = domain_.evaluate(context, table_.state(job.need.parent), job.need.action, cancel);
         finished.outcome.report = evaluated;
         if (measured_) finished.seconds = thread_cpu_s() - begun;
         if (evaluated.cancelled || !evaluated.valid) return finished;
-        finished.outcome.child = table_.intern(evaluated.child, writer);
+        finished.outcome.child = table_.intern(evaluated.child, worker.writer);
       } catch (...) {
         finished.error = std::current_exception();
         return finished;
@@ -124,7 +196,7 @@ class ParallelSearch {
     const StateId state = job.generates() ? job.need.parent : finished.outcome.child;
     if (table_.expanded(state) || table_.closed_by(state) != kNoState) return finished;
     try {
-      finished.expansion = expand_state(w, writer, state);
+      finished.expansion = expand_state(worker.index, worker.writer, state);
     } catch (...) {
       finished.expansion_error = std::current_exception();
     }
@@ -173,11 +245,11 @@ class ParallelSearch {
   const ParallelOptions& parallel_;
   const bool measured_;
   StateTable<D> table_;
-  std::mutex mutex_;               // guards the three below
+  std::mutex mutex_;  // guards the three below
   Sched scheduler_;
   std::exception_ptr error_;
   int idle_ = 0;
-  std::condition_variable work_;   // something may be taken, or all is over
+  std::condition_variable work_;  // something may be taken, or all is over
   StopSource::Clock::time_point begun_;
 };
 

@@ -16,10 +16,10 @@
 
 namespace mamo::search {
 
-/// The scheduler of the parallel searches: "in-order commit, bench-ordered runahead" (PARALLEL.md section 2.3). A driver
-/// calls take() and finish() for its workers, under one lock or in virtual time; between the two calls a worker
-/// evaluates on its own. There is no thread for committing: whoever finishes the edge that the order needs runs the
-/// order on as far as outcomes are there, and takes the next needed edge itself.
+/// The scheduler of the parallel searches: "in-order commit, bench-ordered runahead". A driver calls take() and
+/// finish() for its workers, under one lock or in virtual time; between the two calls a worker evaluates on its own.
+/// There is no thread for committing: whoever finishes the edge that the order needs runs the order on as far as
+/// outcomes are there, and takes the next needed edge itself.
 ///
 /// Identity. The order (LazyOrder, EagerOrder) is the serial algorithm; it gets the outcome of each edge it asks for
 /// and nothing else. By induction on commits: OPEN after k commits is a function of the first k (edge, outcome)
@@ -28,7 +28,7 @@ namespace mamo::search {
 /// serial search, for every schedule, number of workers and interleaving; so is an exception: it is kept and raised
 /// when its turn comes. Only a stop from outside can cut the sequence elsewhere, and then it is a prefix.
 ///
-/// Never slower: the needed edge, if nobody has begun it, is what take() gives out first.
+/// Never slower: the needed edge, if nobody has taken it, is what take() gives out first.
 ///
 /// Progress: unless ended, the needed edge is fresh (the next take() gets it) or running (its worker will finish);
 /// so one worker that keeps calling is enough.
@@ -56,13 +56,17 @@ class Scheduler {
     double seconds = 0;                    // thread CPU time, if measured
   };
 
-  Scheduler(const D& domain, Table& table, const SearchOptions& options, const ParallelOptions& parallel, int workers)
+  /// slots: jobs that a worker may hold at once; worker w has the slots w * slots .. (w + 1) * slots - 1.
+  Scheduler(const D& domain, Table& table, const SearchOptions& options, const ParallelOptions& parallel, int workers,
+            int slots = 1)
       : table_(table),
         parallel_(parallel),
         order_(domain, table, options),
         graph_(table, order_.weight(), parallel.schedule == Schedule::runahead),
-        slots_(static_cast<std::size_t>(workers)) {
-    graph_.on_death = [this](std::int32_t worker) { cancel(worker); };
+        workers_(workers),
+        slots_per_worker_(slots),
+        slots_(static_cast<std::size_t>(workers * slots)) {
+    graph_.on_death = [this](std::int32_t slot) { cancel(slot); };
   }
 
   /// expansion: of the start, if the order is lazy.
@@ -77,8 +81,8 @@ class Scheduler {
     advance(now);
   }
 
-  /// Something for worker w to do, or nothing for now (or for good, if ended()).
-  std::optional<Job> take(int w, double now = 0) {
+  /// Something to do for a free slot, or nothing for now (or for good, if ended()).
+  std::optional<Job> take(int slot, double now = 0) {
     if (order_.ended()) return std::nullopt;
     Job job{*need_, true};
     if (!head_is_fresh()) {
@@ -91,13 +95,13 @@ class Scheduler {
     } else if (parallel_.schedule == Schedule::batch && !in_round(job.need)) {
       begin_round();
     }
-    claim(w, job, now);
+    claim(slot, job, now);
     return job;
   }
 
-  /// The job that worker w took is over.
-  void finish(int w, Finished finished, double now = 0) {
-    Slot& slot = slots_[static_cast<std::size_t>(w)];
+  /// The job of a slot is over.
+  void finish(int index, Finished finished, double now = 0) {
+    Slot& slot = slots_[static_cast<std::size_t>(index)];
     const Job job = slot.job;
     slot.busy = false;
     if (job.generates()) {
@@ -105,19 +109,45 @@ class Scheduler {
     } else {
       finish_evaluation(slot, std::move(finished), now);
     }
-    for (const StateId state : slot.deferred) graph_.rewind(state);
-    slot.deferred.clear();
+    resume_deferred(slot);
     advance(now);
   }
 
+  /// A job that was taken and not begun: somebody else may have it.
+  void give_back(int index) {
+    Slot& slot = slots_[static_cast<std::size_t>(index)];
+    slot.busy = false;
+    const Need need = slot.job.need;
+    if (slot.job.generates()) {
+      graph_.at(need.parent).generating = false;
+    } else {
+      Cell& c = cell(need);
+      --stats_.evaluations;
+      if (c.phase == CellPhase::running) {
+        release(need, c);
+        c.phase = CellPhase::fresh;
+      }
+      forget(c);
+    }
+    graph_.rewind(need.parent);
+    resume_deferred(slot);
+  }
+
   bool ended() const { return order_.ended(); }
+  /// Whether the order waits for something that nobody has taken.
+  bool head_waits() { return !order_.ended() && head_is_fresh(); }
   /// Whether another worker might find something to take.
   bool has_work() {
     if (graph_.changed()) dry_ = false;
     return !order_.ended() && (head_is_fresh() || !dry_);
   }
-  /// Raised when worker w should give up what it evaluates.
-  const std::atomic<bool>* cancel_flag(int w) const { return &slots_[static_cast<std::size_t>(w)].cancel; }
+  /// Raised when the evaluation in a slot should be given up. Read unlocked.
+  const std::atomic<bool>* cancel_flag(int slot) const { return &slots_[static_cast<std::size_t>(slot)].cancel; }
+  /// Raised when the order has come to an edge that is in a slot: a worker with several jobs hands in what it has
+  /// done. Read unlocked.
+  bool awaited(int slot) const {
+    return slots_[static_cast<std::size_t>(slot)].awaited.load(std::memory_order_relaxed);
+  }
   void abort(EndReason reason) {
     order_.abort(reason);
     cancel_all();
@@ -143,14 +173,16 @@ class Scheduler {
   StateId known_child(const Need& need) { return cell(need).known; }
   void dropped(const Need& need) {
     Cell& c = cell(need);
-    if (c.phase == CellPhase::running) cancel(c.worker);
+    if (c.phase == CellPhase::running) cancel(c.slot);
     release(need, c);
+    if (c.phase == CellPhase::done) forget(c);
     c.phase = CellPhase::gone;
   }
 
  private:
   struct alignas(64) Slot {
     std::atomic<bool> cancel{false};
+    std::atomic<bool> awaited{false};
     bool busy = false;
     Job job;
     StateId known = kNoState;       // the child it will have if valid, where the domain predicts one
@@ -158,9 +190,28 @@ class Scheduler {
     std::vector<StateId> deferred;  // states that put off an edge to the same child
   };
 
-  Cell& cell(const Need& need) {
-    return graph_.at(need.parent).expansion->cells[static_cast<std::size_t>(need.edge)];
+  /// What a running or done cell holds besides.
+  struct Evaluation {
+    EdgeReport report;
+    float seconds = 0;        // thread CPU time, if measured
+    std::int32_t trace = -1;  // job in the trace
+  };
+  Evaluation& evaluation(const Cell& c) { return evaluations_[static_cast<std::size_t>(c.evaluation)]; }
+  void remember(Cell& c) {
+    if (spare_.empty()) {
+      spare_.push_back(static_cast<std::int32_t>(evaluations_.size()));
+      evaluations_.emplace_back();
+    }
+    c.evaluation = spare_.back();
+    spare_.pop_back();
+    evaluation(c) = {};
   }
+  void forget(Cell& c) {
+    spare_.push_back(c.evaluation);
+    c.evaluation = -1;
+  }
+
+  Cell& cell(const Need& need) { return graph_.at(need.parent).expansion->cells[static_cast<std::size_t>(need.edge)]; }
   Need need_of(StateId state, std::int32_t edge) {
     if (edge == Need::kSuccessors) return {state, edge, 0};
     return {state, edge, graph_.at(state).expansion->edges[static_cast<std::size_t>(edge)].action};
@@ -172,8 +223,8 @@ class Scheduler {
     if (need_->edge == Need::kSuccessors) return !graph_.at(need_->parent).generating;
     return cell(*need_).phase == CellPhase::fresh;
   }
-  void cancel(std::int32_t worker) {
-    slots_[static_cast<std::size_t>(worker)].cancel.store(true, std::memory_order_relaxed);
+  void cancel(std::int32_t slot) {
+    slots_[static_cast<std::size_t>(slot)].cancel.store(true, std::memory_order_relaxed);
   }
   void cancel_all() {
     for (Slot& slot : slots_) {
@@ -181,9 +232,15 @@ class Scheduler {
     }
   }
 
-  void claim(int w, const Job& job, double now) {
-    Slot& slot = slots_[static_cast<std::size_t>(w)];
+  void resume_deferred(Slot& slot) {
+    for (const StateId state : slot.deferred) graph_.rewind(state);
+    slot.deferred.clear();
+  }
+
+  void claim(int index, const Job& job, double now) {
+    Slot& slot = slots_[static_cast<std::size_t>(index)];
     slot.cancel.store(false, std::memory_order_relaxed);
+    slot.awaited.store(job.head, std::memory_order_relaxed);
     slot.busy = true;
     slot.job = job;
     slot.known = kNoState;
@@ -194,7 +251,8 @@ class Scheduler {
     }
     Cell& c = cell(job.need);
     c.phase = CellPhase::running;
-    c.worker = w;
+    c.slot = index;
+    remember(c);
     slot.known = c.known;
     slot.g = s.g + s.expansion->edges[static_cast<std::size_t>(job.need.edge)].cost;
     ++stats_.evaluations;
@@ -203,7 +261,9 @@ class Scheduler {
       ahead_keys_.insert(key);
       key_of_cell_.insert_or_assign(error_key(job.need.parent, job.need.edge), key);
     }
-    if (parallel_.trace) c.trace = parallel_.trace->begin_job(job.need, w, job.head, now);
+    if (parallel_.trace) {
+      evaluation(c).trace = parallel_.trace->begin_job(job.need, index / slots_per_worker_, job.head, now);
+    }
   }
 
   void finish_generation(StateId state, Finished finished) {
@@ -227,25 +287,26 @@ class Scheduler {
     Cell& c = cell(need);
     stats_.evaluation_s += finished.seconds;
     stats_.charge += finished.outcome.report.charge;
-    if (parallel_.trace) parallel_.trace->end_job(c.trace, finished.outcome, finished.seconds, now);
-    if (c.phase != CellPhase::running) return;  // dropped meanwhile
+    if (parallel_.trace) parallel_.trace->end_job(evaluation(c).trace, finished.outcome, finished.seconds, now);
+    if (c.phase != CellPhase::running) return forget(c);  // dropped meanwhile
     if (finished.outcome.report.cancelled && !finished.error) {
       ++stats_.cancelled;
       release(need, c);
+      forget(c);
       c.phase = CellPhase::fresh;
       graph_.rewind(need.parent);
       if (!slot.cancel.load(std::memory_order_relaxed)) abort(EndReason::stopped);
       return;
     }
     c.phase = CellPhase::done;
-    c.seconds = static_cast<float>(finished.seconds);
-    c.report = finished.outcome.report;
+    evaluation(c).seconds = static_cast<float>(finished.seconds);
+    evaluation(c).report = finished.outcome.report;
+    c.valid = finished.outcome.report.valid && !finished.error;
     c.child = finished.outcome.child;
     if (finished.error) {
       c.failed = true;
-      c.report.valid = false;
       errors_.emplace(error_key(need.parent, need.edge), finished.error);
-    } else if (c.report.valid) {
+    } else if (c.valid) {
       slot.deferred.clear();  // what was put off for this child is superfluous
       adopt(c.child, finished);
       graph_.link(need.parent, need.edge, c.child);
@@ -278,11 +339,13 @@ class Scheduler {
   void commit(const Need need, Cell& c, double now) {
     if (c.failed) std::rethrow_exception(errors_.at(error_key(need.parent, need.edge)));
     release(need, c);
+    const Evaluation done = evaluation(c);
+    forget(c);
     c.phase = CellPhase::gone;
     ++stats_.used;
-    stats_.used_s += static_cast<double>(c.seconds);
-    if (parallel_.trace) parallel_.trace->commit_job(c.trace, now);
-    const Committed committed = order_.commit({c.report, c.child}, *this);
+    stats_.used_s += static_cast<double>(done.seconds);
+    if (parallel_.trace) parallel_.trace->commit_job(done.trace, now);
+    const Committed committed = order_.commit({done.report, c.child}, *this);
     head_met_ = false;
     dry_ = false;
     if (committed.closed != kNoState) graph_.close(committed.closed, committed.g);
@@ -297,7 +360,10 @@ class Scheduler {
     ++stats_.heads;
     stats_.heads_done += c.phase == CellPhase::done;
     stats_.heads_running += c.phase == CellPhase::running;
-    if (parallel_.trace) parallel_.trace->need(*need_, c.trace, now);
+    if (c.phase == CellPhase::running) {
+      slots_[static_cast<std::size_t>(c.slot)].awaited.store(true, std::memory_order_relaxed);
+    }
+    if (parallel_.trace) parallel_.trace->need(*need_, c.evaluation < 0 ? -1 : evaluation(c).trace, now);
   }
 
   // --- what to evaluate ahead ---------------------------------------------------------------------------
@@ -417,14 +483,14 @@ class Scheduler {
     ++round_;
     round_list_.clear();
     round_next_ = 0;
-    const int count = parallel_.batch > 0 ? parallel_.batch : static_cast<int>(slots_.size());
+    const int count = parallel_.batch > 0 ? parallel_.batch : workers_;
     visit_top(count, [&](StateId state, std::int32_t edge) {
       add_to_round(state, edge);
       return false;
     });
-    for (std::size_t w = 0; w < slots_.size(); ++w) {  // the barrier: what fell out of the batch gives up
-      if (slots_[w].busy && !slots_[w].job.generates() && !in_round(slots_[w].job.need)) {
-        cancel(static_cast<std::int32_t>(w));
+    for (Slot& slot : slots_) {  // the barrier: what fell out of the batch gives up
+      if (slot.busy && !slot.job.generates() && !in_round(slot.job.need)) {
+        slot.cancel.store(true, std::memory_order_relaxed);
       }
     }
     dry_ = false;
@@ -453,13 +519,16 @@ class Scheduler {
   const ParallelOptions& parallel_;
   Order order_;
   ShadowGraph<D, Order::kLazy> graph_;
+  const int workers_, slots_per_worker_;
   std::vector<Slot> slots_;
-  const Need* need_ = nullptr;  // what the order waits for; null once ended
+  std::vector<Evaluation> evaluations_;  // referred to by cells
+  std::vector<std::int32_t> spare_;      // free ones
+  const Need* need_ = nullptr;           // what the order waits for; null once ended
   bool head_met_ = false;
-  bool dry_ = false;            // the last look for work ahead found none
+  bool dry_ = false;  // the last look for work ahead found none
   ParallelStats stats_;
   std::unordered_map<std::uint64_t, std::exception_ptr> errors_;
-  std::multiset<BenchKey> ahead_keys_;                      // of begun and waiting outcomes, if bounded()
+  std::multiset<BenchKey> ahead_keys_;  // of begun and waiting outcomes, if bounded()
   std::unordered_map<std::uint64_t, BenchKey> key_of_cell_;
   std::int32_t round_ = 0;
   std::vector<std::pair<StateId, std::int32_t>> round_list_;

@@ -62,7 +62,7 @@ struct BenchKey {
 ///
 /// The bench key. A shadow's edge may have a tiny f, but the serial order cannot pop it before it has popped the
 /// edges that lead there. So edges are ordered by Bench, then f, then larger g. Ordering by raw f instead wastes most
-/// speculation (PARALLEL.md section 2.3); ordering by the largest f alone wastes it where many workers run far ahead.
+/// speculation; ordering by the largest f alone wastes it where many workers run far ahead.
 /// A state that several edges lead to has the least (bench, g) among them.
 ///
 /// A shadow is alive while it is closed, or its class is open and a done edge of a living state leads to it. Only
@@ -76,10 +76,10 @@ class ShadowGraph {
     std::unique_ptr<Expansion> expansion;
     Bench bench = Bench::never();
     Cost g = kUnreachable, h = 0;
-    std::int32_t live_in = 0;    // done edges of living states that lead here
-    std::uint32_t version = 0;   // of its entry in PENDING
-    std::int32_t cursor = 0;     // into expansion->order: everything before is not fresh
-    std::int32_t round = -1;     // of schedule `batch`
+    std::int32_t live_in = 0;   // done edges of living states that lead here
+    std::uint32_t version = 0;  // of its entry in PENDING
+    std::int32_t cursor = 0;    // into expansion->order: everything before is not fresh
+    std::int32_t round = -1;    // of schedule `batch`
     StateId next_in_class = kNoState, first_in_class = kNoState;
     bool met = false, alive = false, closed = false, opened = false;
     bool generating = false, failed = false;  // its successors are being generated; that threw
@@ -193,7 +193,7 @@ class ShadowGraph {
 
   bool changed() { return std::exchange(changed_, false); }  // entries were added since the last call
   std::size_t pending_size() const { return pending_.size(); }
-  /// Called with the worker of each running evaluation that died.
+  /// Called with the slot of each running evaluation that died.
   std::function<void(std::int32_t)> on_death;
 
  private:
@@ -248,9 +248,8 @@ class ShadowGraph {
     if (s.cursor < end) push({key_of(s, static_cast<std::int32_t>(edge())), id, s.version});
   }
   void compact() {
-    std::erase_if(pending_, [&](const Item& i) {
-      return i.version != shadows_[static_cast<std::size_t>(i.state)].version;
-    });
+    std::erase_if(pending_,
+                  [&](const Item& i) { return i.version != shadows_[static_cast<std::size_t>(i.state)].version; });
     std::make_heap(pending_.begin(), pending_.end());
   }
 
@@ -312,7 +311,7 @@ class ShadowGraph {
     const Shadow& s = at(id);
     if (!s.expansion || !on_death) return;
     for (const Cell& cell : s.expansion->cells) {
-      if (cell.phase == CellPhase::running) on_death(cell.worker);
+      if (cell.phase == CellPhase::running) on_death(cell.slot);
     }
   }
 
@@ -322,7 +321,7 @@ class ShadowGraph {
     if (!s.expansion) return;
     const std::vector<Cell>& cells = s.expansion->cells;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (cells[i].phase == CellPhase::done && cells[i].report.valid) visit(static_cast<std::int32_t>(i), cells[i].child);
+      if (cells[i].phase == CellPhase::done && cells[i].valid) visit(static_cast<std::int32_t>(i), cells[i].child);
     }
   }
 
@@ -330,10 +329,10 @@ class ShadowGraph {
   const Weight& weight_;
   bool ahead_;
   bool changed_ = false;
-  std::deque<Shadow> shadows_;  // by state id
-  std::vector<Item> pending_;   // max-heap of Item's order: the most urgent on top
-  std::vector<Step> steps_;     // scratch
-  std::vector<StateId> settle_; // scratch
+  std::deque<Shadow> shadows_;   // by state id
+  std::vector<Item> pending_;    // max-heap of Item's order: the most urgent on top
+  std::vector<Step> steps_;      // scratch
+  std::vector<StateId> settle_;  // scratch
 };
 
 }  // namespace mamo::search

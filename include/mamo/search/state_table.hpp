@@ -74,9 +74,7 @@ class StateTable {
     const std::int32_t id = classes_.find(hash, [&](std::int32_t other) { return same_class(other, hash, state); });
     return id < 0 ? kNoState : StateId(states_[id].closed_by.load(std::memory_order_acquire));
   }
-  void close(StateId id) {
-    states_[states_[id.value].class_of].closed_by.store(id.value, std::memory_order_release);
-  }
+  void close(StateId id) { states_[states_[id.value].class_of].closed_by.store(id.value, std::memory_order_release); }
   /// A note of the scheduler to workers, who need not generate the successors of such a state again. A hint, no more:
   /// relaxed, and nothing is read on the strength of it.
   void set_expanded(StateId id) { states_[id.value].expanded.store(true, std::memory_order_relaxed); }

@@ -11,15 +11,15 @@ namespace mamo::search {
 
 struct ToyClutterOptions {
   std::uint64_t seed = 1;
-  int side = 24;                // cells along each of the three axes
-  int walls = 10, movables = 14;  // balls of random place and size
+  int side = 24;                               // cells along each of the three axes
+  int walls = 10, movables = 14;               // balls of random place and size
   double wall_radius = 5, movable_radius = 4;  // mean (cells)
-  int labels = 6;               // what physics leaves behind; 1: nothing
-  double push_fails = 0.5;      // chance of an edge inside a movable to fail, by physics
+  int labels = 6;                              // what physics leaves behind; 1: nothing
+  double push_fails = 0.5;                     // chance of an edge inside a movable to fail, by physics
   ToyDelay delay = ToyDelay::none;
-  double check_ms = 0.3;        // every evaluation
-  double physics_ms = 30;       // inside a movable; lognormal with sigma 1, cut to [1, 200]
-  double scale = 1;             // of both
+  double check_ms = 0.3;   // every evaluation
+  double physics_ms = 30;  // inside a movable; lognormal with sigma 1, cut to [1, 200]
+  double scale = 1;        // of both
 };
 
 /// Cells of a cube, 26 moves, from one corner region to the opposite one. A move into a wall is found invalid; one
@@ -43,6 +43,7 @@ class ToyClutter {
 
   EdgeOutcome<State> outcome(const State& s, std::int32_t action) const;
   double evaluation_ms(const State& s, std::int32_t action) const;
+  const ToyClutterOptions& options() const { return options_; }
 
  private:
   enum class Cell : std::uint8_t { free, wall, movable };
@@ -54,7 +55,8 @@ class ToyClutter {
   std::int32_t goal_ = 0;
 };
 
-/// Spends `ms` busily or asleep, looking at the flag and the stop source every half millisecond; false when stopped.
+/// Spends `ms` asleep, or as much arithmetic as takes about that long, looking at the flag and the stop source at least
+/// every half millisecond; false when stopped.
 bool spend(ToyDelay delay, double ms, const std::atomic<bool>* cancel, StopSource* stop);
 
 }  // namespace mamo::search

@@ -24,15 +24,15 @@ enum class ToyDelay { none, busy, sleep };
 struct RandomGraphOptions {
   std::uint64_t seed = 1;
   int nodes = 50;
-  int degree = 4;             // edges out of each node (parallel edges and self-loops included)
-  int max_cost = 20;          // costs are uniform in 1..max_cost
-  int goals = 1;              // node 0 is the start; goals are drawn among the others (or node 0 if there is one)
-  double invalid = 0.3;       // chance of an edge to fail, drawn per (state, action)
-  int labels = 1;             // > 1: the label of a child is drawn per (state, action) by the evaluation
-  int class_size = 1;         // labels in one class
-  double heuristic = 1.0;     // 0: blind; 1: exact distance in the graph without failures
-  bool predict_child = false; // known_child() answers where there is one label
-  double layered = 0;         // > 0: edges of node n lead to n + 1 .. n + layered, mostly: long, narrow graphs
+  int degree = 4;              // edges out of each node (parallel edges and self-loops included)
+  int max_cost = 20;           // costs are uniform in 1..max_cost
+  int goals = 1;               // node 0 is the start; goals are drawn among the others (or node 0 if there is one)
+  double invalid = 0.3;        // chance of an edge to fail, drawn per (state, action)
+  int labels = 1;              // > 1: the label of a child is drawn per (state, action) by the evaluation
+  int class_size = 1;          // labels in one class
+  double heuristic = 1.0;      // 0: blind; 1: exact distance in the graph without failures
+  bool predict_child = false;  // known_child() answers where there is one label
+  double layered = 0;          // > 0: edges of node n lead to n + 1 .. n + layered, mostly: long, narrow graphs
   // What an evaluation costs. The length is drawn per (state, action), like the outcome.
   ToyDelay delay = ToyDelay::none;
   double check_ms = 0.3;      // every evaluation

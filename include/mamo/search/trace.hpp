@@ -15,7 +15,7 @@ namespace mamo::search {
 struct TraceJob {
   std::int32_t state = -1, edge = 0, worker = 0;
   bool head = false;            // the order was waiting for it when it was taken
-  double taken = 0, done = -1;
+  double taken = 0, done = -1;  // never done: given back
   double needed = -1;           // when it became what the order asks for
   double committed = -1;
   std::int64_t commit = -1;     // index among the commits; -1: not used

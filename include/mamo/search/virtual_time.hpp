@@ -14,16 +14,16 @@ namespace mamo::search {
 
 /// Seconds of everything that is not an evaluation.
 struct VirtualCosts {
-  double locked_s = 4e-6;  // one take or finish, commits included; nobody else may at the same time
+  double locked_s = 1e-6;  // one take or finish, commits included; nobody else may at the same time
   double cancel_s = 1e-3;  // from the flag to the return of a cancelled evaluation
 };
 
 struct VirtualRun {
-  double seconds = 0;       // from begin to the end of the search
-  double busy_s = 0;        // evaluations, cancelled ones included, summed over workers
-  double used_s = 0;        // of it: committed
-  double stall_s = 0;       // the order waited for an evaluation
-  double idle_s = 0;        // workers without an evaluation, summed
+  double seconds = 0;  // from begin to the end of the search
+  double busy_s = 0;   // evaluations, cancelled ones included, summed over workers
+  double used_s = 0;   // of it: committed
+  double stall_s = 0;  // the order waited for an evaluation
+  double idle_s = 0;   // workers without an evaluation, summed
   ParallelStats stats;
   std::uint64_t order_hash = 0;
   double efficiency() const { return busy_s > 0 ? used_s / busy_s : 1; }
@@ -52,8 +52,8 @@ WorkAndSpan work_and_span(const D& domain, const SearchOptions& options, Seconds
   typename D::Context context{};
   SerialHost<D> host(domain, context, table);
   WorkAndSpan result;
-  std::vector<std::int32_t> born;   // by state id: the commit that first led there
-  std::vector<double> chain;        // by commit
+  std::vector<std::int32_t> born;  // by state id: the commit that first led there
+  std::vector<double> chain;       // by commit
   order.begin(table.intern(domain.start()), host);
   while (const Need* need = order.next(host)) {
     const auto evaluated = domain.evaluate(context, table.state(need->parent), need->action, nullptr);
@@ -92,9 +92,8 @@ class VirtualSearch {
     scheduler_.begin(start, Sched::Order::kLazy ? expand_state(start) : nullptr);
     give_out();
     while (!scheduler_.ended()) {
-      const auto next = std::min_element(workers_.begin(), workers_.end(), [](const Worker& a, const Worker& b) {
-        return a.until < b.until;
-      });
+      const auto next = std::min_element(workers_.begin(), workers_.end(),
+                                         [](const Worker& a, const Worker& b) { return a.until < b.until; });
       hand_in(*next);
       give_out();
     }
@@ -137,7 +136,7 @@ class VirtualSearch {
       if (!job->generates()) w.until += seconds_(table_.state(job->need.parent), job->need.action);
     }
     for (Worker& w : workers_) {
-      if (w.until == kNever || w.cancelled || !scheduler_.cancel_flag(index(w))->load(std::memory_order_relaxed)) continue;
+      if (w.until == kNever || w.cancelled || !scheduler_.cancel_flag(index(w))->load()) continue;
       if (clock_ + costs_.cancel_s >= w.until) continue;
       w.until = clock_ + costs_.cancel_s;
       w.cancelled = true;

@@ -12,16 +12,16 @@ namespace mamo {
 struct Track {
   bool ok = false;
   bool stopped = false;
-  int failed_edge = -1;                    // index of the edge that was invalid
-  std::optional<Violation> violation;      // of that edge
-  std::vector<Interaction> interactions;   // P, accumulated over the path; times from the path's start
+  int failed_edge = -1;                   // index of the edge that was invalid
+  std::optional<Violation> violation;     // of that edge
+  std::vector<Interaction> interactions;  // P, accumulated over the path; times from the path's start
   bool second_order = false;
   int simulations = 0;
-  TimedPath motion;                        // of the edges that were valid, waits included
-  std::vector<int> edge_of_point;          // edge that led to each point of `motion`
-  std::vector<bool> touching;              // per valid edge: it was simulated, something was (nearly) touched
-  std::vector<WorldState> states;          // objects at each point of the path, start included
-  WorldState state;                        // at the end
+  TimedPath motion;                // of the edges that were valid, waits included
+  std::vector<int> edge_of_point;  // edge that led to each point of `motion`
+  std::vector<bool> touching;      // per valid edge: it was simulated, something was (nearly) touched
+  std::vector<WorldState> states;  // objects at each point of the path, start included
+  WorldState state;                // at the end
 };
 
 /// `path`: configurations, at least one. `bodies`: every object counts (make_relevant_bodies of all).
