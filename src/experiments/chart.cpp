@@ -15,6 +15,9 @@ constexpr double kLegendRow = 18;
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#e69f00", "#56b4e9", "#7f7f7f", "#b8a800"};
 
+// Lines that lie on one another stay visible.
+constexpr std::array<const char*, 3> kDashes = {"", "\" stroke-dasharray=\"8 4", "\" stroke-dasharray=\"2 4"};
+
 std::string px(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", value + 0.0);
@@ -71,12 +74,12 @@ class Drawing {
 
   std::string svg() {
     const double height = kHeight + kLegendRow * static_cast<double>(chart_.series.size());
-    text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
+    text_ = "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
             "\" role=\"img\" aria-label=\"" + escape_markup(chart_.title) + "\">\n" +
-            "<style>svg{--ink:#222;--faint:#ccc;--paper:#fff;font:13px sans-serif}"
-            "@media(prefers-color-scheme:dark){svg{--ink:#ddd;--faint:#444;--paper:#16181c}}"
-            ".paper{fill:var(--paper)}text{fill:var(--ink)}.grid{stroke:var(--faint)}.axis{stroke:var(--ink)}"
-            ".line{fill:none;stroke-width:2}.hollow{fill:var(--paper);stroke-width:2}</style>\n"
+            "<style>.chart{font:13px sans-serif}.chart .paper,.chart .hollow{fill:#fff}.chart text{fill:#222}"
+            ".chart .grid{stroke:#ccc}.chart .axis{stroke:#222}.chart .line{fill:none;stroke-width:2}"
+            ".chart .hollow{stroke-width:2}@media(prefers-color-scheme:dark){.chart .paper,.chart .hollow{fill:#16181c}"
+            ".chart text{fill:#ddd}.chart .grid{stroke:#444}.chart .axis{stroke:#ddd}}</style>\n"
             "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
     text_at(kLeft, 22, chart_.title, "start", " font-weight=\"bold\"");
     axes();
@@ -132,7 +135,8 @@ class Drawing {
       last_y = y;
     }
     if (!series.published && !path.empty())
-      text_ += "<path class=\"line\" stroke=\"" + colour + "\" d=\"" + path + "\"/>\n";
+      text_ += std::string("<path class=\"line\" stroke=\"") + colour + kDashes[own % kDashes.size()] + "\" d=\"" +
+               path + "\"/>\n";
     if (!series.steps)
       for (const auto& [x, y] : series.points)
         if (!axis_.log || x > 0) mark(at_x(x), at_y(y), colour, series.published, series.name + ": " + label(y));

@@ -28,6 +28,11 @@ def lines(path):
         return [json.loads(line) for line in file]
 
 
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def facts(path):
     """What of a results file does not depend on clock, jobs or threads: run -> line."""
     by_run = {}
@@ -91,7 +96,7 @@ class Bench(ToolTest):
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             deadline = time.monotonic() + 60
             while process.poll() is None and time.monotonic() < deadline:
-                if os.path.exists(out) and open(out, "rb").read().count(b"\n") >= wanted:
+                if os.path.exists(out) and os.path.getsize(out) > 0 and content(out).count(b"\n") >= wanted:
                     break
                 time.sleep(0.001)
             process.send_signal(signal.SIGKILL)
@@ -177,7 +182,7 @@ class Report(ToolTest):
         for name in files:
             if name.endswith(".svg"):
                 xml.dom.minidom.parse(self.path("r/" + name))
-        page = open(self.path("r/index.html"), encoding="utf-8").read()
+        page = content(self.path("r/index.html")).decode()
         for words in ("62.342", "prefers-color-scheme", "Looked at &lt;two&gt;", "0.01 m, 0.05 rad", "weight 50",
                       "published (Table I)"):
             self.assertIn(words, page)
