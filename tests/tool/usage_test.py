@@ -9,7 +9,7 @@ SUBCOMMANDS = ("plan", "verify", "generate", "info", "convert", "bench", "report
 WRONG = [
     ((), ["no subcommand"]),
     (("paln", "PROBLEM"), ["paln", "plan"]),
-    (("bench", "suite.yaml"), ["bench"]),
+    (("train", "config.yaml"), ["train"]),
     (("train",), ["train"]),
     (("plan",), ["PROBLEM"]),
     (("plan", "PROBLEM", "another"), ["another"]),
@@ -77,7 +77,7 @@ class Usage(ToolTest):
         text = mamo("--help").stdout
         for command in SUBCOMMANDS:
             self.assertIn(f"  {command} ", text)
-        for command in ("bench", "report", "view", "train"):
+        for command in ("view", "train"):
             self.assertNotIn(f"  {command} ", text)
 
     def test_version(self):
