@@ -8,6 +8,7 @@
 
 #include "selsim/selsim_options.hpp"
 
+#include "mamo/common/executor.hpp"
 #include "mamo/common/hash.hpp"
 #include "mamo/common/stopwatch.hpp"
 #include "mamo/lattice/manipulation_lattice.hpp"
@@ -41,6 +42,7 @@ class SelSimQuery {
   bool accept(const Search& found);
   bool judged(Candidate& candidate);
   void learn(const std::vector<Interaction>& interactions, const Violation& violation, int step, const Search& found);
+  EdgeEvaluator& evaluator() { return *workers_.front(); }
   Plan plan_of(const Track& track) const;
   PlanResult& finish(PlanStatus status, std::string reason);
   PlanResult& no_path(const Search& search);
@@ -55,7 +57,8 @@ class SelSimQuery {
   double weight_ = 1;
 
   std::shared_ptr<const ForwardKinematics> kinematics_;
-  std::unique_ptr<EdgeEvaluator> evaluator_;
+  std::unique_ptr<Executor> executor_;
+  std::vector<std::unique_ptr<EdgeEvaluator>> workers_;  // one per thread; the first also tracks and smooths
   std::unique_ptr<LatticeModel> model_;
   RelevantBodies everything_;
   ObjectSet relevant_;
