@@ -1,5 +1,7 @@
 #include "selsim/selsim_query.hpp"
 
+#include <fstream>
+
 #include "mamo/lattice/shortcut.hpp"
 #include "mamo/search/parallel_search.hpp"
 #include "mamo/selsim/relevant_object.hpp"
@@ -48,6 +50,8 @@ SelSimQuery::Search SelSimQuery::search_once() {
   parallel.schedule = search::schedule_from(options_.schedule).value_or(search::Schedule::runahead);
   parallel.batch = options_.batch;
   parallel.executor = executor_.get();
+  search::Trace trace;
+  if (!options_.trace_path.empty()) parallel.trace = &trace;
   search::SearchOptions options;
   options.weight = weight_;
   options.max_expansions = options_.max_expansions - result_.stats.expansions;
@@ -63,6 +67,7 @@ SelSimQuery::Search SelSimQuery::search_once() {
   const std::span<ManipulationLattice::Context> all(contexts);
   Search found = variant_.lazy ? search::parallel_lazy_weighted_astar(lattice, all, options, parallel)
                                : search::parallel_weighted_astar(lattice, all, options, parallel);
+  if (trace.wall_s > trace_.wall_s) trace_ = std::move(trace);
   PlanStats& stats = result_.stats;
   stats.search_s += watch.seconds();
   stats.expansions += found.counters.expansions;
@@ -179,6 +184,10 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
       for (Eigen::Index i = 0; i < segment.motion.q[k].size(); ++i) signature_.add(segment.motion.q[k][i]);
     }
   result_.signature = signature_.value();
+  if (!options_.trace_path.empty()) {
+    std::ofstream out(options_.trace_path);
+    search::write_trace(trace_, out);
+  }
   return result_;
 }
 

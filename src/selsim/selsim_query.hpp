@@ -13,6 +13,7 @@
 #include "mamo/common/stopwatch.hpp"
 #include "mamo/lattice/manipulation_lattice.hpp"
 #include "mamo/search/search_result.hpp"
+#include "mamo/search/trace.hpp"
 #include "mamo/selsim/selsim_planner.hpp"
 #include "mamo/selsim/tracker.hpp"
 
@@ -47,7 +48,6 @@ class SelSimQuery {
   PlanResult& finish(PlanStatus status, std::string reason);
   PlanResult& no_path(const Search& search);
   PlanResult& stopped();
-  void count_failure(const Violation& violation, const std::string& stage);
 
   const SelSimVariant variant_;
   const Problem& problem_;
@@ -64,6 +64,7 @@ class SelSimQuery {
   ObjectSet relevant_;
   std::set<BannedEdge> banned_;
 
+  search::Trace trace_;  // of the planning iteration that took longest, if a trace is asked for
   Stopwatch watch_;
   PlanResult result_;
   HashStream signature_;
