@@ -3,7 +3,7 @@ import os
 
 from support import ToolTest, main, mamo
 
-SUBCOMMANDS = ("plan", "verify", "generate", "info", "convert")
+SUBCOMMANDS = ("plan", "verify", "generate", "info", "convert", "bench", "report")
 
 # Arguments, and words of the one line. PROBLEM stands for a problem that is fine.
 WRONG = [

@@ -62,6 +62,8 @@ int run(int argc, char** argv) {
   add_generate(app, session);
   add_info(app, session);
   add_convert(app, session);
+  add_bench(app, session);
+  add_report(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_text) {  // --help, --version

@@ -20,6 +20,8 @@ void add_verify(CLI::App& app, Session& session);
 void add_generate(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
+void add_bench(CLI::App& app, Session& session);
+void add_report(CLI::App& app, Session& session);
 
 /// --quiet, -v, --no-color; every subcommand has them.
 void add_console_options(CLI::App& command, Session& session);

@@ -1,0 +1,43 @@
+// From records to a page that a reader can check: tables, charts, what was not solved and why, and the published
+// numbers beside ours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mamo/experiments/chart.hpp"
+#include "mamo/experiments/record.hpp"
+
+namespace mamo {
+
+struct Table {
+  std::string name;  // of its CSV file, without extension
+  std::string title, caption;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+struct Report {
+  std::string title;
+  std::vector<std::string> facts;  // machine, commits, limits, weights: one line each
+  std::vector<Table> tables;
+  std::vector<Chart> charts;
+  std::string notes;  // Markdown, as written by a person
+};
+
+/// A run that stands in two files counts once (the first). Every suite gets a table of results, one of comparisons, one
+/// of what was not solved, and the charts its settings allow.
+Report make_report(std::vector<Record> records);
+
+std::string to_markdown(const Report& report);
+/// One self-contained page.
+std::string to_html(const Report& report);
+std::string to_csv(const Table& table);
+
+/// Table I of Saleem and Likhachev (ICRA 2020): 12 objects, 2 of them fixed. Null for other planners.
+struct Published {
+  double success, time_s;
+};
+const Published* published_table1(const std::string& planner);
+
+}  // namespace mamo
