@@ -134,6 +134,7 @@ search::EdgeOutcome<LatticeState> ManipulationLattice::evaluate(Context& context
   LatticeModel::Move m;
   if (!model_.move(s, action, m) || (!banned_.empty() && banned_.contains({s, action}))) return outcome;
   const std::int64_t checks = context.evaluator->collision_checks();
+  const double simulated_s = context.evaluator->simulation_s();
   WorldState world = world_of(s);
   Eigen::VectorXd from = model_.configuration(s.anchor, s.bins);
   outcome.valid = true;
@@ -148,6 +149,7 @@ search::EdgeOutcome<LatticeState> ManipulationLattice::evaluate(Context& context
     from = to;
   }
   outcome.work = context.evaluator->collision_checks() - checks;
+  outcome.costly_us = static_cast<float>(1e6 * (context.evaluator->simulation_s() - simulated_s));
   if (!outcome.valid) return outcome;
   outcome.child.anchor = m.anchor;
   outcome.child.bins = std::move(m.bins);

@@ -1,8 +1,9 @@
 #include "selsim/selsim_query.hpp"
 
+#include <fstream>
+
 #include "mamo/lattice/shortcut.hpp"
-#include "mamo/search/lazy_weighted_astar.hpp"
-#include "mamo/search/weighted_astar.hpp"
+#include "mamo/search/parallel_search.hpp"
 #include "mamo/selsim/relevant_object.hpp"
 
 namespace mamo {
@@ -19,7 +20,9 @@ SelSimQuery::SelSimQuery(const SelSimVariant& variant, const Problem& problem, c
 
 void SelSimQuery::prepare() {
   kinematics_ = std::make_shared<ForwardKinematics>(problem_.robot);
-  evaluator_ = std::make_unique<EdgeEvaluator>(problem_, kinematics_, settings_.lattice.collision);
+  executor_ = std::make_unique<Executor>(std::max(1, options_.threads));
+  for (int w = 0; w < executor_->workers(); ++w)
+    workers_.push_back(std::make_unique<EdgeEvaluator>(problem_, kinematics_, settings_.lattice.collision));
   everything_ = make_relevant_bodies(problem_, ObjectSet::all(problem_.scene));
   // Bodies that stay put and may not be touched: walls for goal configurations and heuristic alike.
   ObjectSet immovable = ObjectSet::of_kind(problem_.scene, ObjectKind::immovable);
@@ -30,9 +33,9 @@ void SelSimQuery::prepare() {
               : settings_.immovables == "discovered" ? ObjectSet(problem_.scene.size())
                                                      : immovable;
   const TrackedPoint point = tracked_point(*kinematics_);
-  ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator_->collision(), walls, options_.seed,
+  ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator().collision(), walls, options_.seed,
                                    settings_.lattice.goal_configurations);
-  std::vector<GoalChain> chains = make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations,
+  std::vector<GoalChain> chains = make_goal_chains(problem_, evaluator().collision(), walls, goal.configurations,
                                                    options_.seed, settings_.lattice.chains, context_.stop);
   model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), std::move(chains),
                                           point, walls);
@@ -41,7 +44,14 @@ void SelSimQuery::prepare() {
 SelSimQuery::Search SelSimQuery::search_once() {
   const ManipulationLattice lattice(problem_, *model_, make_relevant_bodies(problem_, relevant_), banned_,
                                     context_.stop);
-  ManipulationLattice::Context scratch{evaluator_.get(), {}};
+  std::vector<ManipulationLattice::Context> contexts;
+  for (const auto& worker : workers_) contexts.push_back({worker.get(), {}});
+  search::ParallelOptions parallel;
+  parallel.schedule = search::schedule_from(options_.schedule).value_or(search::Schedule::runahead);
+  parallel.batch = options_.batch;
+  parallel.executor = executor_.get();
+  search::Trace trace;
+  if (!options_.trace_path.empty()) parallel.trace = &trace;
   search::SearchOptions options;
   options.weight = weight_;
   options.max_expansions = options_.max_expansions - result_.stats.expansions;
@@ -54,8 +64,10 @@ SelSimQuery::Search SelSimQuery::search_once() {
                             static_cast<int>(relevant_.ids().size()), result_.stats.planning_iterations});
     };
   const Stopwatch watch;
-  Search found = variant_.lazy ? search::lazy_weighted_astar(lattice, scratch, options)
-                               : search::weighted_astar(lattice, scratch, options);
+  const std::span<ManipulationLattice::Context> all(contexts);
+  Search found = variant_.lazy ? search::parallel_lazy_weighted_astar(lattice, all, options, parallel)
+                               : search::parallel_weighted_astar(lattice, all, options, parallel);
+  if (trace.wall_s > trace_.wall_s) trace_ = std::move(trace);
   PlanStats& stats = result_.stats;
   stats.search_s += watch.seconds();
   stats.expansions += found.counters.expansions;
@@ -103,18 +115,18 @@ bool SelSimQuery::judged(Candidate& candidate) {
 
 bool SelSimQuery::accept(const Search& found) {
   const Stopwatch watch;
-  const std::int64_t checks = evaluator_->collision_checks();
+  const std::int64_t checks = evaluator().collision_checks();
   Candidate raw = candidate_of(found);
-  raw.track = track(problem_, *evaluator_, raw.path, everything_, context_.stop);
+  raw.track = track(problem_, evaluator(), raw.path, everything_, context_.stop);
   Candidate smooth;
   if (raw.track.ok && options_.smooth) {
-    smooth.path = shortcut(raw.path, raw.track.touching, raw.track.states, *evaluator_, everything_, context_.stop);
+    smooth.path = shortcut(raw.path, raw.track.touching, raw.track.states, evaluator(), everything_, context_.stop);
     if (smooth.path.size() < raw.path.size())
-      smooth.track = track(problem_, *evaluator_, smooth.path, everything_, context_.stop);
+      smooth.track = track(problem_, evaluator(), smooth.path, everything_, context_.stop);
   }
   result_.stats.tracking_s += watch.seconds();
   result_.stats.tracking_simulations += raw.track.simulations + smooth.track.simulations;
-  result_.stats.collision_checks += evaluator_->collision_checks() - checks;
+  result_.stats.collision_checks += evaluator().collision_checks() - checks;
   if (raw.track.stopped) return false;
   if (!raw.track.ok) {
     learn(raw.track.interactions, *raw.track.violation,
@@ -160,8 +172,11 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
   result_.status = status;
   result_.reason = std::move(reason);
   result_.stats.wall_s = watch_.seconds();
-  result_.stats.simulations = evaluator_->simulations() - result_.stats.tracking_simulations;
-  result_.stats.simulation_s = evaluator_->simulation_s();
+  result_.stats.simulations = -result_.stats.tracking_simulations;
+  for (const auto& worker : workers_) {
+    result_.stats.simulations += worker->simulations();
+    result_.stats.simulation_s += worker->simulation_s();
+  }
   if (status != PlanStatus::solved) result_.plan = {};
   for (const Segment& segment : result_.plan.segments)
     for (std::size_t k = 0; k < segment.motion.t.size(); ++k) {
@@ -169,6 +184,10 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
       for (Eigen::Index i = 0; i < segment.motion.q[k].size(); ++i) signature_.add(segment.motion.q[k][i]);
     }
   result_.signature = signature_.value();
+  if (!options_.trace_path.empty()) {
+    std::ofstream out(options_.trace_path);
+    search::write_trace(trace_, out);
+  }
   return result_;
 }
 

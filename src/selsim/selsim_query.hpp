@@ -8,10 +8,12 @@
 
 #include "selsim/selsim_options.hpp"
 
+#include "mamo/common/executor.hpp"
 #include "mamo/common/hash.hpp"
 #include "mamo/common/stopwatch.hpp"
 #include "mamo/lattice/manipulation_lattice.hpp"
 #include "mamo/search/search_result.hpp"
+#include "mamo/search/trace.hpp"
 #include "mamo/selsim/selsim_planner.hpp"
 #include "mamo/selsim/tracker.hpp"
 
@@ -41,11 +43,11 @@ class SelSimQuery {
   bool accept(const Search& found);
   bool judged(Candidate& candidate);
   void learn(const std::vector<Interaction>& interactions, const Violation& violation, int step, const Search& found);
+  EdgeEvaluator& evaluator() { return *workers_.front(); }
   Plan plan_of(const Track& track) const;
   PlanResult& finish(PlanStatus status, std::string reason);
   PlanResult& no_path(const Search& search);
   PlanResult& stopped();
-  void count_failure(const Violation& violation, const std::string& stage);
 
   const SelSimVariant variant_;
   const Problem& problem_;
@@ -55,12 +57,14 @@ class SelSimQuery {
   double weight_ = 1;
 
   std::shared_ptr<const ForwardKinematics> kinematics_;
-  std::unique_ptr<EdgeEvaluator> evaluator_;
+  std::unique_ptr<Executor> executor_;
+  std::vector<std::unique_ptr<EdgeEvaluator>> workers_;  // one per thread; the first also tracks and smooths
   std::unique_ptr<LatticeModel> model_;
   RelevantBodies everything_;
   ObjectSet relevant_;
   std::set<BannedEdge> banned_;
 
+  search::Trace trace_;  // of the planning iteration that took longest, if a trace is asked for
   Stopwatch watch_;
   PlanResult result_;
   HashStream signature_;

@@ -71,6 +71,31 @@ TEST(SelectiveSimulation, TheSignatureRepeatsAfterAHundredOtherPlans) {
   EXPECT_NE(Query(problem, "selsim", other).result.signature, first.signature);
 }
 
+TEST(SelectiveSimulation, ThreadsSchedulesAndBatchesDoNotShowInTheResult) {
+  for (const char* name : {"demo.yaml", "cupboard.yaml", "tabletop_3.yaml"}) {
+    const Problem problem = shipped(name);
+    for (const std::string& planner : {"selsim", "selsim-wastar"}) {
+      const PlanResult serial = Query(problem, planner).result;
+      for (int threads : {1, 2, 3, 8})
+        for (const char* schedule : {"runahead", "window", "batch"})
+          for (int batch : {0, 1, 4, 16}) {
+            if (batch > 0 && threads != 3) continue;
+            PlanOptions options;
+            options.threads = threads;
+            options.schedule = schedule;
+            options.batch = batch;
+            const PlanResult r = Query(problem, planner, options).result;
+            ASSERT_EQ(r.signature, serial.signature)
+                << name << " " << planner << " " << threads << " " << schedule << " " << batch;
+            ASSERT_EQ(r.stats.simulations_used, serial.stats.simulations_used);
+            ASSERT_EQ(r.stats.expansions, serial.stats.expansions);
+            ASSERT_EQ(r.stats.collision_checks, serial.stats.collision_checks);
+            ASSERT_EQ(r.stats.failures, serial.stats.failures);
+          }
+    }
+  }
+}
+
 TEST(SelectiveSimulation, AllFourVariantsSolveTheCupboardAndVerify) {
   const Problem problem = shipped("cupboard.yaml");
   for (const std::string& name : {"selsim", "selsim-wastar", "fullsim", "fullsim-wastar"}) {

@@ -89,19 +89,19 @@ void add_planning_options(CLI::App& command, PlanningOptions& options) {
       ->type_name("W")
       ->check(number_at_least(1))
       ->group(kGroup);
-  // Accepted everywhere, shown in help once a planner of this build heeds them.
   command.add_option("--schedule", plan.schedule, "How workers compute ahead; results do not depend on it")
       ->type_name("NAME")
       ->check(one_of({"batch", "window", "runahead"}))
-      ->group("");
-  command.add_option("--batch", plan.batch, "Edges in one batch")
+      ->group(kGroup);
+  command.add_option("--batch", plan.batch, "Edges in one batch, or how far workers look ahead (default: the schedule's own)")
       ->type_name("K")
       ->check(whole_number(1, 1 << 20))
-      ->group("");
-  command.add_option("--trace", plan.trace_path, "Write what the search did")
+      ->group(kGroup);
+  command.add_option("--trace", plan.trace_path, "Write the longest search of the query, job by job, for scaling")
       ->type_name("FILE")
       ->check(file_name())
-      ->group("");
+      ->group(kGroup);
+  // Accepted everywhere, shown in help once a planner of this build heeds it.
   command.add_flag("--explain", plan.explain, "Say why")->group("");
   command.add_flag("--no-smooth", options.no_smooth, "Keep the raw path of the search")->group(kGroup);
   command.add_option("--config", options.config, "YAML file of options by name; the command line wins over it")

@@ -115,13 +115,12 @@ class ShadowGraph {
 
   /// A done edge of `parent` leads to `child`.
   void link(StateId parent, std::int32_t edge, StateId child) {
-    Shadow& c = at(child);
     meet(child);
-    if (!at(parent).alive) return;
-    ++c.live_in;
-    set_alive(child);
     const Step step = step_over(parent, edge, child);
     improve(step.id, step.bench, step.g, step.h);
+    if (!at(parent).alive) return;
+    ++at(child).live_in;
+    set_alive(child);
   }
 
   /// The order has closed a state: its edges' turn is by their own f, other members of its class are dead.
@@ -129,9 +128,9 @@ class ShadowGraph {
     meet(id);
     Shadow& s = at(id);
     s.closed = true;
-    for (StateId m = at(table_.class_of(id)).first_in_class; m != kNoState; m = at(m).next_in_class) set_alive(m);
     s.bench = Bench::now();
     s.g = g;
+    for (StateId m = at(table_.class_of(id)).first_in_class; m != kNoState; m = at(m).next_in_class) set_alive(m);
     const std::size_t bottom = steps_.size();
     relax_children(id);
     while (steps_.size() > bottom) {
@@ -144,9 +143,10 @@ class ShadowGraph {
   /// The (eager) order has put a state into OPEN.
   void open(StateId id, Cost g) {
     meet(id);
+    improve(id, Bench::now(), g, at(id).h);
     at(id).opened = true;
     set_alive(id);
-    improve(id, Bench::now(), g, at(id).h);
+    requeue(id);
   }
 
   /// An edge is fresh again.
