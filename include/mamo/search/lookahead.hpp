@@ -36,11 +36,10 @@ struct alignas(64) Slot {
 ///   runahead  the best entry of PENDING (ShadowGraph). With a bound K, only while fewer than K evaluations that would
 ///             be needed earlier are running or waiting for their turn.
 ///   window    the same without shadows; with a bound K, the first fresh edge among the K best entries of OPEN.
-///   batch     the edges of a round: the K best entries of OPEN (kRoundPerWorker times workers, by default) when the
-///   order asked for
-///             an edge outside the last round. Then what is still running outside the new round is cancelled; in
-///             between, workers without a job wait. An edge found invalid costs the others a barrier: the plain
-///             reference that the other two are compared with.
+///   batch     the edges of a round: the K best entries of OPEN (kRoundPerWorker times workers, by default) at the
+///             moment when the order asked for an edge outside the last round. What is running outside the new round
+///             is cancelled; within a round, workers that find no fresh edge wait. The plain reference that the
+///             other two are compared with.
 template <Domain D, class Order>
 class Lookahead {
  public:
