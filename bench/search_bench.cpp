@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -54,7 +55,7 @@ std::vector<std::uint64_t> problems(std::size_t count, double lo, double hi) {
   for (std::uint64_t seed = 1; seeds.size() < count; ++seed) {
     const ToyClutter domain(clutter(seed, ToyDelay::none));
     SearchOptions o = options();
-    o.max_evaluations = 20'000;
+    o.max_evaluations = 100'000;
     ToyClutter::Context context;
     if (!serial_search<LazyOrder>(domain, context, o).found()) continue;
     const auto seconds = [&](const ToyState& s, std::int32_t a) { return scripted_s(domain, s, a); };
@@ -130,7 +131,7 @@ void measured(benchmark::State& state, ToyDelay delay, Schedule schedule, int th
 void predicted(benchmark::State& state, Schedule schedule, int workers) {
   const std::vector<std::uint64_t> seeds = problems(20, 3, 1e9);
   for (auto _ : state) {
-    double work_s = 0, run_s = 0, busy_s = 0, clairvoyant = 0, span_s = 0, stall_s = 0, idle_s = 0;
+    double log_speedup = 0, work_s = 0, run_s = 0, busy_s = 0, clairvoyant = 0, span_s = 0, stall_s = 0, idle_s = 0;
     for (const std::uint64_t seed : seeds) {
       const ToyClutter domain(clutter(seed, ToyDelay::none));
       const auto seconds = [&](const ToyState& s, std::int32_t a) { return scripted_s(domain, s, a); };
@@ -139,6 +140,7 @@ void predicted(benchmark::State& state, Schedule schedule, int workers) {
       parallel.schedule = schedule;
       const VirtualRun run = virtual_search<LazyOrder>(domain, seconds, options(), parallel, workers);
       work_s += work.work_s;
+      log_speedup += std::log(work.work_s / run.seconds);
       span_s += work.span_s;
       run_s += run.seconds;
       busy_s += run.busy_s;
@@ -148,6 +150,7 @@ void predicted(benchmark::State& state, Schedule schedule, int workers) {
     }
     state.SetIterationTime(run_s);
     state.counters["speedup"] = work_s / run_s;
+    state.counters["speedup_geomean"] = std::exp(log_speedup / static_cast<double>(seeds.size()));
     state.counters["of_clairvoyant"] = clairvoyant / run_s;
     state.counters["efficiency"] = work_s / busy_s;
     state.counters["work_over_span"] = work_s / span_s;

@@ -23,8 +23,9 @@ std::optional<Schedule> schedule_from(std::string_view name);
 
 struct ParallelOptions {
   Schedule schedule = Schedule::runahead;
-  /// K, 0: the schedule's default. batch: entries of OPEN in one batch (one per worker); window: depth of OPEN looked
-  /// at (all of it); runahead: outcomes ahead of a piece of work that may be waiting for their turn (any number).
+  /// K, 0: the schedule's default. batch: entries of OPEN in one batch (16 per worker, eager 1); window: depth of OPEN
+  /// looked at (all of it); runahead: outcomes ahead of a piece of work that may be waiting for their turn (any
+  /// number).
   int batch = 0;
   Executor* executor = nullptr;  // null: the search makes its own; must have as many workers as there are contexts
   bool measure = false;          // fills the times of ParallelStats

@@ -5,13 +5,11 @@
 #include <exception>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
-#include "mamo/search/parallel_options.hpp"
-#include "mamo/search/shadow_graph.hpp"
+#include "mamo/search/lookahead.hpp"
 #include "mamo/search/trace.hpp"
 
 namespace mamo::search {
@@ -42,12 +40,8 @@ class Scheduler {
  public:
   using Table = StateTable<D>;
   using Order = OrderT<D, Table>;
+  using Job = search::Job;
 
-  struct Job {
-    Need need;          // edge kSuccessors: generate the parent's successors
-    bool head = false;  // the order waits for it
-    bool generates() const { return need.edge == Need::kSuccessors; }
-  };
   struct Finished {
     Outcome outcome;
     std::unique_ptr<Expansion> expansion;  // of the child, or of the parent if the job generates
@@ -63,10 +57,10 @@ class Scheduler {
         parallel_(parallel),
         order_(domain, table, options),
         graph_(table, order_.weight(), parallel.schedule == Schedule::runahead),
-        workers_(workers),
         slots_per_worker_(slots),
-        slots_(static_cast<std::size_t>(workers * slots)) {
-    graph_.on_death = [this](std::int32_t slot) { cancel(slot); };
+        slots_(static_cast<std::size_t>(workers * slots)),
+        lookahead_(table, order_, graph_, slots_, parallel, workers) {
+    graph_.on_death = [this](StateId state) { abandon(state); };
   }
 
   /// expansion: of the start, if the order is lazy.
@@ -86,14 +80,14 @@ class Scheduler {
     if (order_.ended()) return std::nullopt;
     Job job{*need_, true};
     if (!head_is_fresh()) {
-      const auto ahead = find_ahead();
+      const auto ahead = lookahead_.find();
       if (!ahead) {
         dry_ = true;
         return std::nullopt;
       }
       job = {*ahead, false};
-    } else if (parallel_.schedule == Schedule::batch && !in_round(job.need)) {
-      begin_round();
+    } else if (lookahead_.head_taken(job.need)) {
+      dry_ = false;
     }
     claim(slot, job, now);
     return job;
@@ -124,7 +118,7 @@ class Scheduler {
       Cell& c = cell(need);
       --stats_.evaluations;
       if (c.phase == CellPhase::running) {
-        release(need, c);
+        lookahead_.released(need);
         c.phase = CellPhase::fresh;
       }
       forget(c);
@@ -174,22 +168,12 @@ class Scheduler {
   void dropped(const Need& need) {
     Cell& c = cell(need);
     if (c.phase == CellPhase::running) cancel(c.slot);
-    release(need, c);
+    lookahead_.released(need);
     if (c.phase == CellPhase::done) forget(c);
     c.phase = CellPhase::gone;
   }
 
  private:
-  struct alignas(64) Slot {
-    std::atomic<bool> cancel{false};
-    std::atomic<bool> awaited{false};
-    bool busy = false;
-    Job job;
-    StateId known = kNoState;       // the child it will have if valid, where the domain predicts one
-    Cost g = 0;                     // and its g
-    std::vector<StateId> deferred;  // states that put off an edge to the same child
-  };
-
   /// What a running or done cell holds besides.
   struct Evaluation {
     EdgeReport report;
@@ -212,10 +196,6 @@ class Scheduler {
   }
 
   Cell& cell(const Need& need) { return graph_.at(need.parent).expansion->cells[static_cast<std::size_t>(need.edge)]; }
-  Need need_of(StateId state, std::int32_t edge) {
-    if (edge == Need::kSuccessors) return {state, edge, 0};
-    return {state, edge, graph_.at(state).expansion->edges[static_cast<std::size_t>(edge)].action};
-  }
   static std::uint64_t error_key(StateId state, std::int32_t edge) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(state.value)) << 32 | static_cast<std::uint32_t>(edge);
   }
@@ -229,6 +209,16 @@ class Scheduler {
   void cancel_all() {
     for (Slot& slot : slots_) {
       if (slot.busy) slot.cancel.store(true, std::memory_order_relaxed);
+    }
+  }
+
+  /// A state has died.
+  void abandon(StateId state) {
+    const auto& s = graph_.at(state);
+    for (std::size_t i = 0; s.expansion && i < s.expansion->cells.size(); ++i) {
+      const Cell& c = s.expansion->cells[i];
+      if (c.phase == CellPhase::running) cancel(c.slot);
+      if (c.phase == CellPhase::done) lookahead_.released({state, static_cast<std::int32_t>(i), 0});
     }
   }
 
@@ -256,11 +246,7 @@ class Scheduler {
     slot.known = c.known;
     slot.g = s.g + s.expansion->edges[static_cast<std::size_t>(job.need.edge)].cost;
     ++stats_.evaluations;
-    if (bounded()) {
-      const BenchKey key = graph_.key_of(s, job.need.edge);
-      ahead_keys_.insert(key);
-      key_of_cell_.insert_or_assign(error_key(job.need.parent, job.need.edge), key);
-    }
+    lookahead_.claimed(job.need);
     if (parallel_.trace) {
       evaluation(c).trace = parallel_.trace->begin_job(job.need, index / slots_per_worker_, job.head, now);
     }
@@ -270,7 +256,7 @@ class Scheduler {
     auto& s = graph_.at(state);
     s.generating = false;
     adopt(state, finished);
-    if (s.round == round_ && s.expansion) join_round(state);
+    lookahead_.generated(state);
     dry_ = false;
   }
   void adopt(StateId state, Finished& finished) {
@@ -291,7 +277,7 @@ class Scheduler {
     if (c.phase != CellPhase::running) return forget(c);  // dropped meanwhile
     if (finished.outcome.report.cancelled && !finished.error) {
       ++stats_.cancelled;
-      release(need, c);
+      lookahead_.released(need);
       forget(c);
       c.phase = CellPhase::fresh;
       graph_.rewind(need.parent);
@@ -338,7 +324,7 @@ class Scheduler {
 
   void commit(const Need need, Cell& c, double now) {
     if (c.failed) std::rethrow_exception(errors_.at(error_key(need.parent, need.edge)));
-    release(need, c);
+    lookahead_.released(need);
     const Evaluation done = evaluation(c);
     forget(c);
     c.phase = CellPhase::gone;
@@ -366,161 +352,13 @@ class Scheduler {
     if (parallel_.trace) parallel_.trace->need(*need_, c.evaluation < 0 ? -1 : evaluation(c).trace, now);
   }
 
-  // --- what to evaluate ahead ---------------------------------------------------------------------------
-
-  bool bounded() const { return parallel_.schedule == Schedule::runahead && parallel_.batch > 0; }
-
-  std::optional<Need> find_ahead() {
-    if (parallel_.schedule == Schedule::batch) return find_in_round();
-    if (parallel_.schedule == Schedule::window && parallel_.batch > 0) return find_in_top();
-    while (const auto best = graph_.best()) {
-      const auto [state, edge] = *best;
-      if (edge == Need::kSuccessors) {
-        graph_.pass();
-        return need_of(state, edge);
-      }
-      if (bounded() && too_far(graph_.key_of(graph_.at(state), edge))) return std::nullopt;
-      const bool worth = worth_it(state, edge, true);
-      graph_.pass();
-      if (worth) return need_of(state, edge);
-    }
-    return std::nullopt;
-  }
-
-  /// An edge to a known child is not worth an evaluation ahead of its turn if that child is closed, or has been
-  /// reached (is being reached) as cheaply: then the serial order will most likely drop the edge unevaluated.
-  bool worth_it([[maybe_unused]] StateId state, [[maybe_unused]] std::int32_t edge, [[maybe_unused]] bool defer) {
-    if constexpr (PredictsChild<D>) {
-      auto& s = graph_.at(state);
-      const StateId known = s.expansion->cells[static_cast<std::size_t>(edge)].known;
-      if (known == kNoState) return true;
-      if (table_.closed_by(known) != kNoState) return false;
-      const Cost g = s.g + s.expansion->edges[static_cast<std::size_t>(edge)].cost;
-      if (const auto* child = graph_.peek(known); child && child->alive && child->g <= g) return false;
-      for (Slot& slot : slots_) {
-        if (slot.busy && slot.known == known && slot.g <= g) {
-          if (defer) slot.deferred.push_back(state);
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// Schedule runahead with a bound: whether K outcomes that would be needed earlier are begun or waiting.
-  bool too_far(const BenchKey& key) const {
-    int rank = 0;
-    for (auto it = ahead_keys_.begin(); it != ahead_keys_.end() && *it < key; ++it) {
-      if (++rank >= parallel_.batch) return true;
-    }
-    return false;
-  }
-  void release(const Need& need, const Cell& c) {
-    if (!bounded() || (c.phase != CellPhase::running && c.phase != CellPhase::done)) return;
-    const auto it = key_of_cell_.find(error_key(need.parent, need.edge));
-    if (it == key_of_cell_.end()) return;
-    ahead_keys_.erase(ahead_keys_.find(it->second));
-    key_of_cell_.erase(it);
-  }
-
-  /// Visits the fresh edges (and successors to be generated) of the best `count` entries of OPEN, best first, and of
-  /// the state being expanded, until visit returns true.
-  template <class Visit>
-  void visit_top(int count, Visit visit) {
-    if constexpr (!Order::kLazy) {
-      if (order_.expanding() != kNoState && visit_edges(order_.expanding(), visit)) return;
-    }
-    const std::vector<OpenEntry>& heap = order_.open().heap();
-    const auto after = [&](std::size_t a, std::size_t b) { return heap[b].before(heap[a]); };
-    std::vector<std::size_t> front;  // heap positions whose parents have been visited
-    if (!heap.empty()) front.push_back(0);
-    for (; count > 0 && !front.empty(); --count) {
-      std::pop_heap(front.begin(), front.end(), after);
-      const std::size_t at = front.back();
-      front.pop_back();
-      if constexpr (Order::kLazy) {
-        if (visit(order_.log().node(heap[at].node).state, heap[at].edge)) return;
-      } else {
-        if (visit_edges(StateId(heap[at].state), visit)) return;
-      }
-      for (std::size_t child = 2 * at + 1; child <= 2 * at + 2 && child < heap.size(); ++child) {
-        front.push_back(child);
-        std::push_heap(front.begin(), front.end(), after);
-      }
-    }
-  }
-  template <class Visit>
-  bool visit_edges(StateId state, Visit& visit) {
-    if (!graph_.at(state).alive) return false;
-    if (!graph_.at(state).expansion) return visit(state, Need::kSuccessors);
-    for (const std::int32_t edge : graph_.at(state).expansion->order) {
-      if (visit(state, edge)) return true;
-    }
-    return false;
-  }
-  bool takeable(StateId state, std::int32_t edge) {
-    auto& s = graph_.at(state);
-    if (edge == Need::kSuccessors) return !s.generating && !s.failed && !s.expansion;
-    return s.expansion->cells[static_cast<std::size_t>(edge)].phase == CellPhase::fresh && worth_it(state, edge, false);
-  }
-
-  std::optional<Need> find_in_top() {
-    std::optional<Need> found;
-    visit_top(parallel_.batch, [&](StateId state, std::int32_t edge) {
-      if (takeable(state, edge)) found = need_of(state, edge);
-      return found.has_value();
-    });
-    return found;
-  }
-
-  // Schedule batch: a round is what the best entries of OPEN were when the order asked for an edge outside the last.
-
-  bool in_round(const Need& need) {
-    if (need.edge == Need::kSuccessors) return graph_.at(need.parent).round == round_;
-    return cell(need).round == round_;
-  }
-  void begin_round() {
-    ++round_;
-    round_list_.clear();
-    round_next_ = 0;
-    const int count = parallel_.batch > 0 ? parallel_.batch : workers_;
-    visit_top(count, [&](StateId state, std::int32_t edge) {
-      add_to_round(state, edge);
-      return false;
-    });
-    for (Slot& slot : slots_) {  // the barrier: what fell out of the batch gives up
-      if (slot.busy && !slot.job.generates() && !in_round(slot.job.need)) {
-        slot.cancel.store(true, std::memory_order_relaxed);
-      }
-    }
-    dry_ = false;
-  }
-  void add_to_round(StateId state, std::int32_t edge) {
-    if (edge == Need::kSuccessors) {
-      graph_.at(state).round = round_;
-    } else {
-      graph_.at(state).expansion->cells[static_cast<std::size_t>(edge)].round = round_;
-    }
-    round_list_.push_back({state, edge});
-  }
-  void join_round(StateId state) {
-    for (const std::int32_t edge : graph_.at(state).expansion->order) add_to_round(state, edge);
-    dry_ = false;
-  }
-  std::optional<Need> find_in_round() {
-    for (; round_next_ < round_list_.size(); ++round_next_) {
-      const auto [state, edge] = round_list_[round_next_];
-      if (takeable(state, edge)) return need_of(state, edge);
-    }
-    return std::nullopt;
-  }
-
   Table& table_;
   const ParallelOptions& parallel_;
   Order order_;
   ShadowGraph<D, Order::kLazy> graph_;
-  const int workers_, slots_per_worker_;
+  const int slots_per_worker_;
   std::vector<Slot> slots_;
+  Lookahead<D, Order> lookahead_;
   std::vector<Evaluation> evaluations_;  // referred to by cells
   std::vector<std::int32_t> spare_;      // free ones
   const Need* need_ = nullptr;           // what the order waits for; null once ended
@@ -528,11 +366,6 @@ class Scheduler {
   bool dry_ = false;  // the last look for work ahead found none
   ParallelStats stats_;
   std::unordered_map<std::uint64_t, std::exception_ptr> errors_;
-  std::multiset<BenchKey> ahead_keys_;  // of begun and waiting outcomes, if bounded()
-  std::unordered_map<std::uint64_t, BenchKey> key_of_cell_;
-  std::int32_t round_ = 0;
-  std::vector<std::pair<StateId, std::int32_t>> round_list_;
-  std::size_t round_next_ = 0;
 };
 
 }  // namespace mamo::search

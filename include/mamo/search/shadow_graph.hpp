@@ -2,60 +2,18 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <compare>
 #include <deque>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "mamo/search/bench_key.hpp"
 #include "mamo/search/expansion.hpp"
 
 namespace mamo::search {
-
-/// The f that OPEN must rise to, one after the other, before the serial order comes to an edge: along the edges that
-/// lead there from what is committed, the largest f, then the largest after that one, and so on: strictly falling.
-/// Of two edges the one with the lexicographically smaller sequence comes first, whatever the f of what both share.
-/// Only the first kDepth are kept; padded with kNow, which is less than any f.
-struct Bench {
-  static constexpr std::size_t kDepth = 4;
-  static constexpr Cost kNow = std::numeric_limits<Cost>::min();
-
-  std::array<Cost, kDepth> maxima;
-  static Bench now() { return Bench{}.fill(kNow); }
-  static Bench never() { return Bench{}.fill(std::numeric_limits<Cost>::max()); }
-  /// One edge further on.
-  Bench after(Cost f) const {
-    Bench next = *this;
-    std::size_t i = 0;
-    while (i < kDepth && next.maxima[i] > f) ++i;
-    if (i < kDepth) next.maxima[i] = f;
-    for (++i; i < kDepth; ++i) next.maxima[i] = kNow;
-    return next;
-  }
-  friend auto operator<=>(const Bench&, const Bench&) = default;
-
- private:
-  Bench& fill(Cost value) {
-    maxima.fill(value);
-    return *this;
-  }
-};
-
-/// Urgency of an evaluation: when the serial order could ask for it at the earliest.
-struct BenchKey {
-  Bench bench;
-  Cost f = 0, g = 0;
-  friend bool operator<(const BenchKey& a, const BenchKey& b) {
-    if (const auto order = a.bench <=> b.bench; order != 0) return order < 0;
-    if (a.f != b.f) return a.f < b.f;
-    return a.g > b.g;
-  }
-};
 
 /// The states that workers have met ("shadows": evaluated, most of them not committed yet), linked by the edges that
 /// are done, and PENDING, the queue of what could be evaluated ahead. Only speed depends on anything in here.
@@ -193,8 +151,8 @@ class ShadowGraph {
 
   bool changed() { return std::exchange(changed_, false); }  // entries were added since the last call
   std::size_t pending_size() const { return pending_.size(); }
-  /// Called with the slot of each running evaluation that died.
-  std::function<void(std::int32_t)> on_death;
+  /// Called with each state that dies: nothing that it leads to can be needed.
+  std::function<void(StateId)> on_death;
 
  private:
   bool eligible(const Shadow& s) const {
@@ -303,18 +261,10 @@ class ShadowGraph {
         at(child).live_in += alive ? 1 : -1;
         settle_.push_back(child);
       });
-      if (!alive) cancel_running(id);
+      if (!alive && on_death) on_death(id);
       requeue(id);
     }
   }
-  void cancel_running(StateId id) {
-    const Shadow& s = at(id);
-    if (!s.expansion || !on_death) return;
-    for (const Cell& cell : s.expansion->cells) {
-      if (cell.phase == CellPhase::running) on_death(cell.slot);
-    }
-  }
-
   /// Visits the children that done edges lead to.
   template <class Visit>
   void each_child(const Shadow& s, Visit visit) {
