@@ -14,7 +14,7 @@
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/common/hash.hpp"
 #include "mamo/io/load.hpp"
-#include "mamo/io/nearest_name.hpp"
+#include "mamo/common/nearest_name.hpp"
 #include "mamo/io/profile.hpp"
 #include "mamo/planners/registry.hpp"
 
@@ -126,7 +126,7 @@ class SuiteReader {
     const std::vector<std::string> names = planner_names();
     if (std::find(names.begin(), names.end(), entry.name) == names.end())
       complaints_.add(map.need("name"), "unknown planner '" + entry.name + "'; did you mean '" +
-                                            io::nearest_name(entry.name, names) + "'?");
+                                            nearest_name(entry.name, names) + "'?");
     if (const YamlValue* set = map.find("set")) {
       std::vector<std::string> known;
       for (const OptionDoc& option : planner_options(entry.name)) known.push_back(option.name);

@@ -4,7 +4,7 @@
 #include "io/xml_file.hpp"
 
 #include "mamo/io/load.hpp"
-#include "mamo/io/nearest_name.hpp"
+#include "mamo/common/nearest_name.hpp"
 
 namespace mamo::io {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "io/text.hpp"
 
-#include "mamo/io/nearest_name.hpp"
+#include "mamo/common/nearest_name.hpp"
 
 namespace mamo::io {
 namespace {

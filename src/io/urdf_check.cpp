@@ -1,6 +1,6 @@
 #include "io/urdf_check.hpp"
 
-#include "mamo/io/nearest_name.hpp"
+#include "mamo/common/nearest_name.hpp"
 
 namespace mamo::io {
 namespace {

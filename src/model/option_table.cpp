@@ -4,6 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "mamo/common/nearest_name.hpp"
+
 namespace mamo {
 namespace {
 
@@ -24,29 +26,7 @@ std::string shown(const T& value) {
   return out.str();
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitute = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
-    }
-  }
-  return row[b.size()];
-}
-
 }  // namespace
-
-std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates) {
-  std::string best;
-  for (const std::string& c : candidates)
-    if (best.empty() || edit_distance(name, c) < edit_distance(name, best)) best = c;
-  return best;
-}
 
 void OptionTable::add(const std::string& name, double& value, double least, double most, const std::string& meaning) {
   docs_.push_back({name, shown(value), meaning});

@@ -74,7 +74,7 @@ TEST(SelectiveSimulation, TheSignatureRepeatsAfterAHundredOtherPlans) {
 TEST(SelectiveSimulation, ThreadsSchedulesAndBatchesDoNotShowInTheResult) {
   for (const char* name : {"demo.yaml", "cupboard.yaml", "tabletop_3.yaml"}) {
     const Problem problem = shipped(name);
-    for (const std::string& planner : {"selsim", "selsim-wastar"}) {
+    for (const char* planner : {"selsim", "selsim-wastar"}) {
       const PlanResult serial = Query(problem, planner).result;
       for (int threads : {1, 2, 3, 8})
         for (const char* schedule : {"runahead", "window", "batch"})
@@ -98,7 +98,7 @@ TEST(SelectiveSimulation, ThreadsSchedulesAndBatchesDoNotShowInTheResult) {
 
 TEST(SelectiveSimulation, AllFourVariantsSolveTheCupboardAndVerify) {
   const Problem problem = shipped("cupboard.yaml");
-  for (const std::string& name : {"selsim", "selsim-wastar", "fullsim", "fullsim-wastar"}) {
+  for (const char* name : {"selsim", "selsim-wastar", "fullsim", "fullsim-wastar"}) {
     const PlanResult r = Query(problem, name).result;
     EXPECT_EQ(r.status, PlanStatus::solved) << name << ": " << r.reason;
     EXPECT_EQ(r.planner, name);

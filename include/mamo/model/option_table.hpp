@@ -30,7 +30,4 @@ class OptionTable {
   std::vector<OptionDoc> docs_;
 };
 
-/// The candidate that is fewest edits away; empty if there is none.
-std::string nearest_name(const std::string& name, const std::vector<std::string>& candidates);
-
 }  // namespace mamo

@@ -1,14 +1,12 @@
-#include "mamo/io/nearest_name.hpp"
+#include "mamo/common/nearest_name.hpp"
 
+#include <algorithm>
 #include <numeric>
 
-namespace mamo::io {
-namespace {
-
-/// Levenshtein distance; names longer than this are compared by their beginning.
-constexpr std::size_t kLongest = 256;
+namespace mamo {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
+  constexpr std::size_t kLongest = 256;
   a = a.substr(0, kLongest);
   b = b.substr(0, kLongest);
   std::vector<std::size_t> row(b.size() + 1);
@@ -25,8 +23,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-}  // namespace
-
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& known) {
   std::string best;
   std::size_t best_distance = 0;
@@ -39,4 +35,4 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
   return best;
 }
 
-}  // namespace mamo::io
+}  // namespace mamo
