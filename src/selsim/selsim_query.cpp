@@ -202,6 +202,10 @@ PlanResult& SelSimQuery::stopped() {
   }
 }
 
+PlanResult& SelSimQuery::out_of_simulations() {
+  return finish(PlanStatus::limit, "no plan within the limit on simulations; --max-simulations raises it");
+}
+
 PlanResult& SelSimQuery::no_path(const Search& search) {
   switch (search.reason) {
     case search::EndReason::stopped:
@@ -209,7 +213,7 @@ PlanResult& SelSimQuery::no_path(const Search& search) {
     case search::EndReason::limit_expansions:
       return finish(PlanStatus::limit, "no plan within the limit on expansions; --max-expansions raises it");
     case search::EndReason::limit_charge:
-      return finish(PlanStatus::limit, "no plan within the limit on simulations; --max-simulations raises it");
+      return out_of_simulations();
     default:
       break;
   }
@@ -236,6 +240,8 @@ PlanResult SelSimQuery::run() {
   while (result_.stats.planning_iterations < settings_.max_iterations) {
     const Search found = search_once();
     if (!found.found()) return no_path(found);
+    if (result_.stats.simulations_used > options_.max_simulations)
+      return out_of_simulations();  // by its last action's legs
     if (accept(found)) return finish(PlanStatus::solved, "");
     if (context_.stop->stopped()) return stopped();
     if (found.path.empty())

@@ -47,6 +47,7 @@ class SelSimQuery {
   Plan plan_of(const Track& track) const;
   PlanResult& finish(PlanStatus status, std::string reason);
   PlanResult& no_path(const Search& search);
+  PlanResult& out_of_simulations();
   PlanResult& stopped();
 
   const SelSimVariant variant_;

@@ -151,6 +151,17 @@ TEST(SelectiveSimulation, LimitsEndTheSearchAndNameTheirOption) {
   EXPECT_TRUE(r.plan.empty());
 }
 
+TEST(SelectiveSimulation, APlanNeverUsesMoreSimulationsThanItsBudget) {
+  const Problem problem = shipped("demo.yaml");
+  const std::int64_t needed = Query(problem).result.stats.simulations_used;
+  for (std::int64_t budget = 1; budget <= needed; ++budget) {
+    PlanOptions options;
+    options.max_simulations = budget;
+    const PlanResult r = Query(problem, "selsim", options).result;
+    EXPECT_EQ(r.status, budget < needed ? PlanStatus::limit : PlanStatus::solved) << budget << " of " << needed;
+  }
+}
+
 TEST(SelectiveSimulation, UnknownOptionsAreMisuseNamedWithTheNearest) {
   const Problem problem = shipped("demo.yaml");
   PlanOptions options;
