@@ -32,13 +32,15 @@ class ClosedList {
   template <class Equal, class Fill>
   std::pair<std::int32_t, bool> insert(std::uint64_t hash, Writer& writer, Equal&& equal, Fill&& fill) {
     const auto same = [&](std::int32_t id) { return equal(std::as_const(arena_)[id]); };
-    const std::int32_t known = index_.find(hash, same);
-    if (known != kNone) return {known, false};
-    const std::int32_t mine = spare(writer);
-    fill(arena_[mine], mine);
-    const std::int32_t winner = index_.insert(hash, mine, same);
-    if (winner == mine) ++writer.next;
-    return {winner, winner == mine};
+    std::int32_t mine = kNone;
+    const std::int32_t winner = index_.insert(hash, same, [&] {
+      mine = spare(writer);
+      fill(arena_[mine], mine);
+      return mine;
+    });
+    if (winner != mine) return {winner, false};
+    ++writer.next;
+    return {winner, true};
   }
   template <class Equal>
   std::int32_t find(std::uint64_t hash, Equal&& equal) const {

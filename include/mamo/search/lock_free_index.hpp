@@ -7,8 +7,6 @@
 #include <memory>
 #include <new>
 
-#include "mamo/common/hash.hpp"
-
 namespace mamo::search {
 
 /// Open addressing, linear probing, a power of two of 64-bit slots. A slot goes through one change in its life:
@@ -19,9 +17,10 @@ namespace mamo::search {
 /// The index never stores keys: insert() and find() take `equal(id)`, which compares the full key of entry `id` with
 /// the one that is looked for. The tag only saves calls of it; a hash is never identity.
 ///
-/// Growth stops nobody. A table that may become half full gets a `next` of twice the size. From then on an inserter
-/// that comes to an empty slot freezes it instead of filling it and goes on in `next`; each such visit also moves a
-/// chunk of slots over (freezing the empty ones, copying the words). Once all are moved, `root` is set to `next`.
+/// Growth stops nobody. A table that may become half full gets a `next` of four times the size. From then on an
+/// inserter that comes to an empty slot freezes it instead of filling it and goes on in `next`; each such visit also
+/// moves a chunk of slots over (freezing the empty ones, copying the words). Once all are moved, `root` is set to
+/// `next`.
 ///
 /// Why a key cannot enter twice. The probe path of a key in one table is a fixed sequence of slots. Slots are
 /// filled along it without gaps, and neither words nor kFrozen ever change. So all inserters of one key find the
@@ -39,7 +38,7 @@ namespace mamo::search {
 ///   moved, promotion       sequentially consistent: of two threads that finish two tables at once, at least one sees
 ///                          the other's, so that root is promoted past both. Only speed is at stake.
 /// No ABA: nothing is removed; tables live as long as the index. find() is wait-free but for growth, which can add a
-/// table to its way at most once per doubling; insert() is lock-free: a stalled thread hinders nobody.
+/// table to its way each time; insert() is lock-free: a stalled thread hinders nobody.
 ///
 /// Prior art: linear probing with claimed slots and cooperative copying as in Cliff Click's non-blocking hash map
 /// (2007) and growt (Maier, Sanders, Dementiev 2016); insert-only ids as in folly's AtomicUnorderedInsertMap.
@@ -75,19 +74,21 @@ class LockFreeIndex {
     }
   }
 
-  /// Enters `id` unless there is an equal entry; returns the id that is there now. reserve() must have been called
-  /// for at least as many entries as there will be with this one.
-  template <class Equal>
-  std::int32_t insert(std::uint64_t hash, std::int32_t id, Equal&& equal) {
+  /// The id of the entry with this hash for which equal(id) holds; if there is none, enters the id that make() gives.
+  /// make() is called at most once, and perhaps in vain: when another thread enters an equal entry at the same time.
+  /// reserve() must have been called for at least as many entries as there will be with this one.
+  template <class Equal, class Make>
+  std::int32_t insert(std::uint64_t hash, Equal&& equal, Make&& make) {
     const std::uint32_t tag = tag_of(hash);
-    const std::uint64_t mine = static_cast<std::uint64_t>(tag) << 32 | (static_cast<std::uint32_t>(id) + 1u);
+    std::int32_t made = kNone;
     for (Table* table = root_.load(std::memory_order_acquire);; table = table->next_table()) {
       for (std::size_t slot = tag & table->mask;; slot = (slot + 1) & table->mask) {
         std::uint64_t word = table->load(slot);
         if (word == kEmpty) {
-          const std::uint64_t desired = table->next_table() ? kFrozen : mine;
+          if (made == kNone) made = make();  // may begin growth
+          const std::uint64_t desired = table->next_table() ? kFrozen : word_of(tag, made);
           if (table->claim(slot, word, desired)) {
-            if (desired == mine) return id;
+            if (desired != kFrozen) return made;
             word = kFrozen;
           }
         }
@@ -104,7 +105,7 @@ class LockFreeIndex {
     while (2 * entries > table->mask + 1) {
       Table* next = table->next_table();
       if (!next) {
-        auto grown = std::make_unique<Table>(2 * (table->mask + 1));
+        auto grown = std::make_unique<Table>(kGrowth * (table->mask + 1));
         // Failure (acquire): another thread was quicker and its table is used.
         if (table->next.compare_exchange_strong(next, grown.get(), std::memory_order_release,
                                                 std::memory_order_acquire)) {
@@ -121,6 +122,7 @@ class LockFreeIndex {
  private:
   static constexpr std::uint64_t kEmpty = 0, kFrozen = ~std::uint64_t{0};
   static constexpr std::size_t kChunk = 64;  // slots moved per visit
+  static constexpr std::size_t kGrowth = 4;
 
   struct Table {
     explicit Table(std::size_t slots)
@@ -155,7 +157,12 @@ class LockFreeIndex {
     return n;
   }
   /// Also the home slot, in its low bits: so a word can be moved without its hash.
-  static std::uint32_t tag_of(std::uint64_t hash) { return static_cast<std::uint32_t>(mix64(hash) >> 32); }
+  static std::uint32_t tag_of(std::uint64_t hash) {
+    return static_cast<std::uint32_t>(((hash ^ (hash >> 32)) * 0x9e3779b97f4a7c15ull) >> 32);
+  }
+  static std::uint64_t word_of(std::uint32_t tag, std::int32_t id) {
+    return static_cast<std::uint64_t>(tag) << 32 | (static_cast<std::uint32_t>(id) + 1u);
+  }
   static std::int32_t id_of(std::uint64_t word) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(word) - 1u);
   }

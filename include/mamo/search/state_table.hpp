@@ -89,8 +89,9 @@ class StateTable {
   }
   std::int32_t class_of(const Record& record, std::int32_t id) {
     classes_.reserve(states_.id_bound());
-    return classes_.insert(record.class_hash, id,
-                           [&](std::int32_t other) { return same_class(other, record.class_hash, record.state); });
+    return classes_.insert(
+        record.class_hash, [&](std::int32_t other) { return same_class(other, record.class_hash, record.state); },
+        [id] { return id; });
   }
 
   const D& domain_;
