@@ -1,0 +1,98 @@
+// One attempt to push one object along a path: a start, an approach, the push, its simulated verdict (E-M4M,
+// "Nonprehensile Push Planner").
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "mamo/collision/collision_checker.hpp"
+#include "mamo/common/stop.hpp"
+#include "mamo/kinematics/inverse_kinematics.hpp"
+#include "mamo/lattice/joint_path.hpp"
+#include "mamo/model/problem.hpp"
+#include "mamo/physics/evaluation.hpp"
+
+namespace mamo {
+
+struct PushOptions {
+  double standoff = 0.05;   // m between the object's boundary and the tip at the start of a push
+  double noise = 0.025;     // m, standard deviation of start and waypoints in x and y
+  double height = 0.03;     // m of the tip above the support
+  double pitch_deg = 30;    // of the tip, nose down
+  double overshoot = 0.05;  // m pushed beyond the path's end
+  bool straight = false;    // one segment from first to last point (published code) instead of the shortcut path
+  double least_displacement = 0.01;  // m, of some object: less is no push
+  int approach_nodes = 1500;         // budget of the approach search
+};
+
+/// Why an attempt came to nothing, in the order in which the stages come; `none` is success.
+enum class PushFailure {
+  none,
+  start_in_obstacle,   // the sampled start is inside something
+  start_unreachable,   // no inverse kinematics there
+  start_in_collision,  // the arm at the start hits something
+  no_approach,         // no path to the start within the budget
+  path_unreachable,    // inverse kinematics ended on the way
+  joint_limit,
+  path_in_collision,  // the arm hits something untouchable on the way
+  misses_object,      // the way does not touch the object
+  violation,          // the simulation violated a constraint (Evaluation::violation says which)
+  nothing_moved,
+  no_retreat,  // no way back to the resting configuration
+  stopped,     // cancelled or out of time: says nothing
+};
+std::string_view to_string(PushFailure failure);
+
+struct PushRequest {
+  ObjectId object;
+  std::vector<Eigen::Vector2d> path;  // of the object's origin (m), at least two points
+  WorldState state;
+  int attempt = 0;           // cumulative number: names the random stream
+  std::uint64_t stream = 0;  // content hash of the vertex and of (object, goal cell)
+};
+
+/// All of it begins and ends at the resting configuration (q_start), so that a vertex is poses of objects only.
+struct PushOutcome {
+  PushFailure failure = PushFailure::stopped;
+  std::vector<Eigen::VectorXd> approach;  // from q_start, free of every object
+  std::vector<Eigen::VectorXd> push;      // begins where the approach ends
+  std::vector<Eigen::VectorXd> retreat;   // begins where the push ends, back to q_start
+  WorldState after;                       // objects after the retreat, quantised
+  std::vector<ObjectId> moved;            // objects whose pose differs from the request's state by more than noise
+  std::optional<Violation> violation;     // of failure `violation`
+  double settle_s = 0;                    // waited at the end of the push
+  int simulations = 0;
+  std::int64_t collision_checks = 0;
+  double simulation_s = 0;  // thread CPU time in the simulator
+  bool valid() const { return failure == PushFailure::none; }
+};
+
+/// One per worker: collision checker and physics world over shared immutable models. Pure: an outcome depends on
+/// (problem, options, seed, request) only.
+class PushPlanner {
+ public:
+  PushPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics, const PushOptions& options,
+              std::uint64_t seed);
+  ~PushPlanner();
+
+  /// `cancel` may be null.
+  PushOutcome attempt(const PushRequest& request, StopSource* stop, const std::atomic<bool>* cancel);
+
+  /// A stored push, with the objects elsewhere: does its arm motion stay clear of the objects in `others` at `state`,
+  /// and do the poses that it gave its own objects (`moved`, at `after`)? (Reuse condition of the data base, both
+  /// halves.)
+  bool reusable(const PushOutcome& stored, const WorldState& state, const ObjectSet& others);
+
+  CollisionChecker& collision();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace mamo

@@ -1,0 +1,91 @@
+// Grasp the object of interest and bring it home against a given set of obstacles (E-M4M, PlanRetrieval of
+// Algorithm 1): home -> pre-grasp -> grasp -> lift -> home with the object in the gripper.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mamo/collision/collision_checker.hpp"
+#include "mamo/collision/voxel_volume.hpp"
+#include "mamo/common/stop.hpp"
+#include "mamo/lattice/joint_path.hpp"
+#include "mamo/model/problem.hpp"
+
+namespace mamo {
+
+struct RetrievalOptions {
+  int grasps = 24;                  // candidate grasp poses around the given pre-grasp: heights, depths, yaws
+  int solutions = 4;                // inverse-kinematics solutions per grasp
+  double lift = 0.05;               // m, straight up before the object is drawn out
+  double max_object_tilt_deg = 20;  // of the held object on the way home; 180: free
+  int max_nodes = 3000;             // of each leg's search
+  double cell = 0.01;               // m, of the negative goal region
+};
+
+/// One grasp that is free of collision with what never moves (fixtures, immovables), with the arm at each stage.
+struct GraspCandidate {
+  Eigen::Isometry3d X_WT;              // tip when it closes
+  Eigen::Isometry3d X_TO;              // object in tip from then on
+  std::vector<Eigen::VectorXd> reach;  // straight line of the tip: pre-grasp first, grasp last
+  std::vector<Eigen::VectorXd> lift;   // straight line of the tip: grasp first, lifted last
+};
+
+/// Joint paths, straight edges between points; each begins where the one before ends.
+struct RetrievalPath {
+  int grasp = -1;                         // index of the candidate
+  std::vector<Eigen::VectorXd> approach;  // from the arm's resting configuration (q_start) to the pre-grasp
+  std::vector<Eigen::VectorXd> reach;     // pre-grasp to grasp: the segment at whose end the object is attached
+  std::vector<Eigen::VectorXd> extract;   // grasp, lifted, ..., home
+};
+
+struct RetrievalOutcome {
+  std::optional<RetrievalPath> path;
+  bool stopped = false;                          // the stop source fired
+  bool exhausted = false;                        // every grasp was tried to the end and no budget cut anything short
+  std::map<std::string, std::int64_t> failures;  // cause ("grasp_in_collision: shelf_top", ...) -> count
+};
+
+/// Immutable after construction: grasps are drawn once per problem, one instance serves every worker.
+class RetrievalPlanner {
+ public:
+  /// The problem's task must be Retrieve. `checker` is used during construction only.
+  RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+                   const RetrievalOptions& options, std::uint64_t seed, CollisionChecker& checker);
+
+  const std::vector<GraspCandidate>& candidates() const { return candidates_; }
+  const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
+
+  /// Objects stand at `state`. Fixtures and immovables always count; of the movables those in `obstacles`. Candidates
+  /// are tried in order, from `first` on; the first that works is the outcome. Cheap tests of all candidates (the
+  /// gripper at grasp and pre-grasp against the obstacles) come before the searches. Depends on the arguments only, not
+  /// on the worker.
+  RetrievalOutcome plan(CollisionChecker& checker, const WorldState& state, const ObjectSet& obstacles, int first,
+                        StopSource* stop) const;
+
+ private:
+  const Problem& problem_;
+  std::shared_ptr<const ForwardKinematics> kinematics_;
+  RetrievalOptions options_;
+  std::uint64_t seed_;
+  std::vector<GraspCandidate> candidates_;
+  std::map<std::string, std::int64_t> rejected_;  // grasp poses that gave no candidate, by cause
+};
+
+/// The negative goal region V(gamma): the volume that arm and carried object sweep along the interpolated path, inside
+/// `bounds` (the space where objects can stand; outside it nothing can be in the way). Interpolated so finely that no
+/// point moves further than half a cell between two poses.
+VoxelVolume swept_volume(const Problem& problem, const ForwardKinematics& kinematics, const RetrievalPath& path,
+                         const GraspCandidate& grasp, const WorldState& state, const Eigen::AlignedBox3d& bounds,
+                         double cell);
+
+/// Where movable objects can be: the box around every object that may stand there and the supports under them, as high
+/// as the tallest. Bounds of negative goal regions and of the grid of the path finding.
+Eigen::AlignedBox3d object_space(const Scene& scene);
+
+}  // namespace mamo
