@@ -1,5 +1,6 @@
 #include "mamo/planners/registry.hpp"
 
+#include "mamo/em4m/em4m_planner.hpp"
 #include "mamo/selsim/selsim_planner.hpp"
 
 namespace mamo {
@@ -17,12 +18,26 @@ std::unique_ptr<Planner> make_selsim() {
   return make_selsim_planner({name, kSelective, kLazy});
 }
 
+template <bool kNegative, bool kPositive, bool kLearned>
+std::unique_ptr<Planner> make_em4m() {
+  const std::string ablation = kNegative && kPositive ? (kLearned ? "" : "-tiebreak")
+                               : kNegative            ? "-negdb"
+                               : kPositive            ? "-posdb"
+                                                      : "-nodb";
+  return make_em4m_planner({"em4m" + ablation, kNegative, kPositive, kLearned});
+}
+
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       {"selsim", make_selsim<true, true>, selsim_options},
       {"selsim-wastar", make_selsim<true, false>, selsim_options},
       {"fullsim", make_selsim<false, true>, selsim_options},
       {"fullsim-wastar", make_selsim<false, false>, selsim_options},
+      {"em4m", make_em4m<true, true, true>, em4m_options},
+      {"em4m-negdb", make_em4m<true, false, true>, em4m_options},
+      {"em4m-posdb", make_em4m<false, true, true>, em4m_options},
+      {"em4m-nodb", make_em4m<false, false, true>, em4m_options},
+      {"em4m-tiebreak", make_em4m<true, true, false>, em4m_options},
   };
   return all;
 }

@@ -45,9 +45,13 @@ struct Prepared {
   std::unique_ptr<Planner> planner;
 };
 
-Result<Prepared> prepare(const PlanCommand& command, Console& console) {
+Result<Prepared> prepare(CLI::App& app, PlanCommand& command, Console& console) {
   Result<Problem> problem = load(command.files, console);
   if (!problem.ok()) return problem.error();
+  if (command.planning.planner.empty()) {
+    const std::string planner = std::holds_alternative<Retrieve>(problem->task) ? "em4m" : "selsim";
+    if (Status status = settle_planner(app, command.planning, planner, console); !status.ok()) return status.error();
+  }
   if (const Status status = validate(*problem); !status.ok()) return status.error();
   auto planner = make_planner(command.planning.planner);
   if (!planner) return Error{"unknown planner '" + command.planning.planner + "'", ErrorKind::usage};
@@ -98,7 +102,7 @@ int run(CLI::App& app, PlanCommand& command, Console& console) {
   StopSource stop(planning.time_limit_s);
   SignalGuard signals(stop);
   const MemoryGuard memory(stop, planning.memory_limit_mb);
-  const Result<Prepared> prepared = prepare(command, console);
+  const Result<Prepared> prepared = prepare(app, command, console);
   if (!prepared.ok()) return fail(console, prepared.error());
   const double load_s = seconds_since(start);
   if (command.json) signals.set_last_words(interrupted_json(*prepared, planning.plan));
@@ -134,7 +138,7 @@ void add_plan(CLI::App& app, Session& session) {
   sub->add_option("--out", command->out, "Write the result object here")->type_name("FILE")->check(file_name());
   sub->add_flag("--json", command->json, "Print the result object instead of a summary");
   add_console_options(*sub, session);
-  sub->footer("Example:\n  mamo plan problem.yaml --planner selsim --time-limit 60 --out plan.json\n" +
+  sub->footer("Example:\n  mamo plan problem.yaml --time-limit 60 --out plan.json\n" +
               describe_planner_options());
   sub->callback([sub, command, &session] {
     session.run = [sub, command, &session] { return run(*sub, *command, session.console); };

@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "checks.hpp"
-#include "config_file.hpp"
 
 #include "mamo/planners/registry.hpp"
 
@@ -53,10 +52,9 @@ Status apply_shared(CLI::Option& option, const ConfigEntry& entry) {
 void add_planning_options(CLI::App& command, PlanningOptions& options) {
   PlanOptions& plan = options.plan;
   plan.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command.add_option("--planner", options.planner, "One of: " + join(planner_names()))
+  command.add_option("--planner", options.planner, "One of: " + join(planner_names()) + " (default: selsim to reach, em4m to retrieve)")
       ->type_name("NAME")
       ->check(one_of(planner_names()))
-      ->capture_default_str()
       ->group(kGroup);
   command.add_option("--time-limit", options.time_limit_s, "Seconds until the search gives up")
       ->type_name("SEC")
@@ -116,23 +114,26 @@ void add_planning_options(CLI::App& command, PlanningOptions& options) {
 }
 
 Status complete(CLI::App& command, PlanningOptions& options, Console& console) {
-  std::vector<ConfigEntry> unshared;
   if (!options.config.empty()) {
     const auto entries = read_config(options.config);
     if (!entries.ok()) return entries.error();
     for (const ConfigEntry& entry : *entries) {
       CLI::Option* option = shared_option(command, entry.key);
       if (!option) {
-        unshared.push_back(entry);
+        options.unshared.push_back(entry);
       } else if (const Status status = apply_shared(*option, entry); !status.ok()) {
         return status;
       }
     }
   }
   options.plan.smooth = !options.no_smooth;
+  return options.planner.empty() ? Status{} : settle_planner(command, options, options.planner, console);
+}
 
+Status settle_planner(CLI::App& command, PlanningOptions& options, const std::string& planner, Console& console) {
+  options.planner = planner;
   const std::vector<std::string> known = option_names(options.planner);
-  for (const ConfigEntry& entry : unshared) {
+  for (const ConfigEntry& entry : options.unshared) {
     if (contains(known, entry.key)) {
       options.plan.set[entry.key] = entry.value;
     } else if (!planners_with(entry.key).empty()) {

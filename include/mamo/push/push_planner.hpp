@@ -89,6 +89,8 @@ class PushPlanner {
   bool reusable(const PushOutcome& stored, const WorldState& state, const ObjectSet& others);
 
   CollisionChecker& collision();
+  std::int64_t simulations() const;  // run so far, cancelled ones included
+  double simulation_s() const;       // thread CPU time spent in them
 
  private:
   struct Impl;

@@ -1,0 +1,52 @@
+// How promising a rearrangement is: E-M4M's learned priority ("Learned Priority Function"), and the lexicographic one
+// of the ablation Tiebreak.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <string>
+#include <vector>
+
+#include "mamo/collision/voxel_volume.hpp"
+#include "mamo/model/option_table.hpp"
+#include "mamo/model/world_state.hpp"
+
+namespace mamo {
+
+/// How an object stands in the negative goal region.
+struct ObjectLoad {
+  double share = 0;           // of the object's volume inside the region (0 to 1)
+  std::int64_t cells = 0;     // of the region that it fills
+  double weighted_share = 0;  // share * mass (kg) * friction
+};
+ObjectLoad object_load(const VoxelVolume& region, const Object& object, const Eigen::Isometry3d& X_WO);
+
+/// The features of the paper. phi1: share of the region's volume that movables fill; phi2: movables inside; phi3: for
+/// each of those, mass times friction times the share of its volume inside.
+struct RegionFeatures {
+  double phi1 = 0;
+  int phi2 = 0;
+  std::vector<double> phi3;
+};
+/// `loads`: one per object of the scene; objects of share 0 do not count.
+RegionFeatures region_features(const VoxelVolume& region, const std::vector<ObjectLoad>& loads);
+
+/// Parameters of the naive Bayes model: a beta density of phi1, exponential densities of phi2 and of each phi3. The
+/// defaults are the published ones (EM4M_FACTS section 6); `mamo train` fits others.
+struct PriorityParameters {
+  double prior = 0.3084358524;       // P(E)
+  double phi1_alpha = 0.3403101839;  // of the beta density
+  double phi1_beta = 45.0750087432;  // of the beta density
+  double phi2_rate = 1.5634743875;   // of the exponential density
+  double phi3_rate = 32.1092604858;  // of the exponential density
+  void add_to(OptionTable& table);
+};
+
+/// Larger is more promising.
+using Priority = std::array<double, 3>;
+/// {log f(v), 0, 0}; infinite for a free region.
+Priority learned_priority(const RegionFeatures& features, const PriorityParameters& parameters);
+/// {-phi1, -phi2, -sum of phi3}, compared in this order.
+Priority lexicographic_priority(const RegionFeatures& features);
+
+}  // namespace mamo
