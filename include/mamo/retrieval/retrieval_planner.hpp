@@ -19,12 +19,17 @@
 
 namespace mamo {
 
+namespace retrieval {
+struct GraspSet;
+}
+
 struct RetrievalOptions {
   int grasps = 24;                  // candidate grasp poses around the given pre-grasp: heights, depths, yaws
   int solutions = 4;                // inverse-kinematics solutions per grasp
   double lift = 0.05;               // m, straight up before the object is drawn out
   double max_object_tilt_deg = 20;  // of the held object on the way home; 180: free
   int max_nodes = 3000;             // of each leg's search
+  int searches = 8;                 // legs home searched for in one call, after all that are known were tried
   double cell = 0.01;               // m, of the negative goal region
 };
 
@@ -58,8 +63,9 @@ class RetrievalPlanner {
   RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
                    const RetrievalOptions& options, std::uint64_t seed, CollisionChecker& checker);
 
-  const std::vector<GraspCandidate>& candidates() const { return candidates_; }
-  const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
+  const std::vector<GraspCandidate>& candidates() const;
+  /// Grasp poses that gave no candidate, by cause.
+  const std::map<std::string, std::int64_t>& rejected() const;
 
   /// Objects stand at `state`. Fixtures and immovables always count; of the movables those in `obstacles`. Candidates
   /// are tried in order, from `first` on; the first that works is the outcome. Cheap tests of all candidates (the
@@ -69,12 +75,7 @@ class RetrievalPlanner {
                         StopSource* stop) const;
 
  private:
-  const Problem& problem_;
-  std::shared_ptr<const ForwardKinematics> kinematics_;
-  RetrievalOptions options_;
-  std::uint64_t seed_;
-  std::vector<GraspCandidate> candidates_;
-  std::map<std::string, std::int64_t> rejected_;  // grasp poses that gave no candidate, by cause
+  std::shared_ptr<const retrieval::GraspSet> grasps_;  // shared by copies: nobody changes it
 };
 
 /// The negative goal region V(gamma): the volume that arm and carried object sweep along the interpolated path, inside

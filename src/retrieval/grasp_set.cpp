@@ -1,0 +1,170 @@
+#include "retrieval/grasp_set.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+#include "retrieval/grasp_poses.hpp"
+#include "retrieval/tip_line.hpp"
+
+#include "mamo/kinematics/inverse_kinematics.hpp"
+
+namespace mamo::retrieval {
+namespace {
+
+constexpr std::uint64_t kIkKey = 0x67726173, kWayKey = 0x776179, kStartKey = 0x7374;
+constexpr double kReachStep = 0.01, kLiftStep = 0.005, kBackStep = 0.02;  // m, of the lines of the tip
+constexpr double kClearance = 0.1;    // m: the line back may end where the tip is so far outside the objects' space
+constexpr double kLongestBack = 0.7;  // m
+constexpr int kStaticNodes = 4;       // times the budget of a call: this search is made once
+
+/// Makes the candidates one after the other.
+class Builder {
+ public:
+  Builder(GraspSet& set, CollisionChecker& checker)
+      : set_(set),
+        around_(set.around),
+        ik_(*around_.kinematics),
+        legs_(around_, checker, WorldState::start_of(around_.problem.scene), ObjectSet(around_.problem.scene.size())),
+        space_(object_space(around_.problem.scene)) {}
+
+  void run() {
+    connect_start();
+    const std::vector<GraspPose> poses =
+        grasp_poses(around_.problem.scene[around_.task().object], around_.task().X_WT_pregrasp, set_.options.grasps);
+    for (std::size_t g = 0; g < poses.size(); ++g) add(poses[g], g);
+  }
+
+ private:
+  void reject(const std::string& cause) { ++set_.rejected[cause]; }
+
+  void connect_start() {
+    const Eigen::VectorXd &start = around_.problem.q_start, &home = around_.task().home;
+    if (start == home)
+      set_.from_start = {start};
+    else
+      set_.from_start = legs_.search(Phase::approach, start, home, RandomStream(set_.seed, {kStartKey}),
+                                     {kStaticNodes * set_.options.max_nodes}, nullptr);
+  }
+
+  void add(const GraspPose& pose, std::size_t g) {
+    std::string cause = "grasp_without_ik";
+    const auto accept = [&](const Eigen::VectorXd& q) {
+      if (legs_.free(Phase::reach, q)) return true;
+      cause = "grasp_in_collision: " + legs_.hit();
+      return false;
+    };
+    const std::vector<Eigen::VectorXd> solutions = ik_.solve_many(
+        pose.X_WT, around_.task().home, hash_combine(mix64(set_.seed ^ kIkKey), g), set_.options.solutions, {}, accept);
+    if (solutions.empty()) reject(cause);
+    for (const Eigen::VectorXd& q : solutions) {
+      cause = add(pose, q);
+      if (!cause.empty()) reject(cause);
+    }
+  }
+
+  /// Empty: a candidate was added; else why not.
+  std::string add(const GraspPose& pose, const Eigen::VectorXd& q) {
+    const Eigen::Isometry3d X_WT = around_.kinematics->tip_pose(q);
+    const Eigen::Vector3d out = pose.X_WT_pregrasp.translation() - pose.X_WT.translation();
+    GraspCandidate candidate;
+    candidate.X_WT = X_WT;
+    candidate.X_TO = X_WT.inverse() * around_.problem.scene[around_.task().object].X_WO;
+    candidate.reach = follow_line(ik_, q, X_WT, out, kReachStep);
+    if (candidate.reach.size() < line_points(out, kReachStep)) return "reach_without_ik";
+    std::reverse(candidate.reach.begin(), candidate.reach.end());
+    if (!legs_.free(Phase::approach, candidate.reach.front())) return "pregrasp_in_collision: " + legs_.hit();
+    if (!legs_.free(Phase::reach, candidate.reach)) return "reach_in_collision: " + legs_.hit();
+    legs_.grip(q);
+    if (std::string cause = lift(candidate, X_WT); !cause.empty()) return cause;
+    WayHome way;
+    if (std::string cause = find_way(candidate, out, way); !cause.empty()) return cause;
+    set_.candidates.push_back(std::move(candidate));
+    set_.ways.push_back(std::move(way));
+    return {};
+  }
+
+  /// As high as asked for; half as high as it goes where something is above.
+  std::string lift(GraspCandidate& candidate, const Eigen::Isometry3d& X_WT) {
+    const Eigen::Vector3d up(0, 0, set_.options.lift);
+    std::vector<Eigen::VectorXd> line = follow_line(ik_, candidate.reach.back(), X_WT, up, kLiftStep);
+    if (line.size() < 2) return "lift_without_ik";
+    if (!legs_.free(Phase::leave, line[0], line[1])) return "lift_in_collision: " + legs_.hit();
+    std::size_t points = 2;
+    while (points < line.size() && legs_.free(Phase::carry, line[points - 1], line[points])) ++points;
+    if (points < line_points(up, kLiftStep)) points = points / 2 + 1;
+    line.resize(points);
+    candidate.lift = std::move(line);
+    if (!legs_.free(Phase::carry, candidate.lift.back())) return "lift_in_collision: " + legs_.hit();
+    return {};
+  }
+
+  std::string find_way(const GraspCandidate& candidate, const Eigen::Vector3d& out, WayHome& way) {
+    line_back(candidate, out, way);
+    const RandomStream random(set_.seed, {kWayKey, set_.candidates.size()});
+    const std::vector<Eigen::VectorXd> rest = legs_.search(Phase::carry, way.path.back(), around_.task().home, random,
+                                                           {kStaticNodes * set_.options.max_nodes}, nullptr);
+    if (rest.empty()) {
+      set_.complete = false;
+      return "no_way_home";
+    }
+    way.path.insert(way.path.end(), rest.begin() + 1, rest.end());
+    return {};
+  }
+
+  /// From lifted back above the pre-grasp pose, and on until the tip is outside where objects can be.
+  void line_back(const GraspCandidate& candidate, const Eigen::Vector3d& out, WayHome& way) {
+    const Eigen::VectorXd& lifted = candidate.lift.back();
+    const std::vector<Eigen::VectorXd> first =
+        follow_line(ik_, lifted, around_.kinematics->tip_pose(lifted), out, kReachStep);
+    way.path = {lifted};
+    extend(first, way);
+    if (way.path.size() == line_points(out, kReachStep)) {
+      way.over_pregrasp = way.path.size() - 1;
+      const Eigen::Isometry3d X_WT = around_.kinematics->tip_pose(way.path.back());
+      extend(follow_line(ik_, way.path.back(), X_WT, way_out(X_WT.translation(), out.normalized()), kBackStep), way);
+    }
+    way.line_end = way.path.size() - 1;
+  }
+
+  void extend(const std::vector<Eigen::VectorXd>& line, WayHome& way) {
+    for (std::size_t k = 1; k < line.size() && legs_.free(Phase::carry, way.path.back(), line[k]); ++k)
+      way.path.push_back(line[k]);
+  }
+
+  /// The shift along `direction` that takes the tip out of the objects' space.
+  Eigen::Vector3d way_out(const Eigen::Vector3d& tip, const Eigen::Vector3d& direction) const {
+    Eigen::AlignedBox3d around = space_;
+    around.min().array() -= kClearance;
+    around.max().array() += kClearance;
+    double length = kBackStep;
+    while (length < kLongestBack && around.contains(tip + length * direction)) length += kBackStep;
+    return length * direction;
+  }
+
+  GraspSet& set_;
+  const Surroundings& around_;
+  InverseKinematics ik_;
+  Legs legs_;
+  Eigen::AlignedBox3d space_;
+};
+
+}  // namespace
+
+GraspSet::GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+                   const RetrievalOptions& options_in, std::uint64_t seed_in, CollisionChecker& checker)
+    : around(problem, std::move(kinematics), options_in.max_object_tilt_deg * std::numbers::pi / 180),
+      options(options_in),
+      seed(seed_in) {
+  Builder(*this, checker).run();
+}
+
+std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,
+                                         const Eigen::VectorXd& pregrasp) {
+  if (way.over_pregrasp == 0 || grasps.from_start.empty()) return {};
+  std::vector<Eigen::VectorXd> path = grasps.from_start;
+  path.insert(path.end(), way.path.rbegin() + 1, way.path.rend() - static_cast<std::ptrdiff_t>(way.over_pregrasp));
+  path.push_back(pregrasp);
+  return legs.free(Phase::approach, path) ? path : std::vector<Eigen::VectorXd>{};
+}
+
+}  // namespace mamo::retrieval

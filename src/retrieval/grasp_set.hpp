@@ -1,0 +1,42 @@
+// What is known of an object's retrieval before anything movable is looked at: grasps and ways home among fixtures and
+// immovables. Made once per problem.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "retrieval/legs.hpp"
+
+#include "mamo/retrieval/retrieval_planner.hpp"
+
+namespace mamo::retrieval {
+
+/// The way home of a candidate: lifted first, back along the line of the approach as far as that goes, then a searched
+/// path. Walked backwards and empty-handed from home to `over_pregrasp` it is the approach.
+struct WayHome {
+  std::vector<Eigen::VectorXd> path;
+  std::size_t over_pregrasp = 0;  // index: above the pre-grasp pose; 0 where the line does not come so far
+  std::size_t line_end = 0;       // index: the last point of the straight line
+};
+
+struct GraspSet {
+  GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+           const RetrievalOptions& options_in, std::uint64_t seed_in, CollisionChecker& checker);
+
+  Surroundings around;
+  RetrievalOptions options;
+  std::uint64_t seed;
+  std::vector<Eigen::VectorXd> from_start;  // from q_start to home
+  std::vector<GraspCandidate> candidates;
+  std::vector<WayHome> ways;                     // one per candidate
+  std::map<std::string, std::int64_t> rejected;  // grasp poses and solutions that gave no candidate, by cause
+  bool complete = true;                          // nothing was left out for want of budget
+};
+
+/// The approach that belongs to a way home, its end lowered onto the pre-grasp; empty where it is not free.
+std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,
+                                         const Eigen::VectorXd& pregrasp);
+
+}  // namespace mamo::retrieval
