@@ -56,6 +56,11 @@ struct PushRequest {
   std::uint64_t stream = 0;  // content hash of the vertex and of (object, goal cell)
 };
 
+/// Thread CPU time by stage (s).
+struct PushTimes {
+  double start = 0, way = 0, approach = 0, simulation = 0, retreat = 0;
+};
+
 /// All of it begins and ends at the resting configuration (q_start), so that a vertex is poses of objects only.
 struct PushOutcome {
   PushFailure failure = PushFailure::stopped;
@@ -66,6 +71,7 @@ struct PushOutcome {
   std::vector<ObjectId> moved;            // objects whose pose differs from the request's state by more than noise
   std::optional<Violation> violation;     // of failure `violation`
   double settle_s = 0;                    // waited at the end of the push
+  PushTimes times;
   int simulations = 0;
   std::int64_t collision_checks = 0;
   double simulation_s = 0;  // thread CPU time in the simulator
