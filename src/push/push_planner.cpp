@@ -281,5 +281,7 @@ bool PushPlanner::reusable(const PushOutcome& stored, const WorldState& state, c
 }
 
 CollisionChecker& PushPlanner::collision() { return impl_->checker; }
+std::int64_t PushPlanner::simulations() const { return impl_->evaluator.simulations(); }
+double PushPlanner::simulation_s() const { return impl_->evaluator.simulation_s(); }
 
 }  // namespace mamo
