@@ -6,7 +6,8 @@ OptionTable Em4mOptions::table() {
   OptionTable t;
   t.add("attempts", attempts, 1, 1000, "pushes tried per object and path");
   t.add("regions", regions, 1, 100,
-        "retrievals without movables of which the least obstructed gives the negative goal region");
+        "negative goal regions to choose from, of retrievals without movables by different grasps");
+  t.add("patience", patience, 0.0, 1e6, "what each further expansion of a rearrangement takes off its log priority");
   t.add("rejections", rejections, 1, 100,
         "retrievals of a rearrangement that verification may reject before it is expanded");
   t.add("grasps", retrieval.grasps, 1, 10000, "grasp poses drawn around the given pre-grasp");

@@ -10,9 +10,10 @@
 namespace mamo {
 
 struct Em4mOptions {
-  int attempts = 5;    // pushes tried per object and path
-  int regions = 4;     // retrievals without movables that compete to be the negative goal region
-  int rejections = 3;  // retrievals of one vertex that verification may reject before it is expanded
+  int attempts = 5;     // pushes tried per object and path
+  int regions = 4;      // negative goal regions, of retrievals without movables by different grasps
+  double patience = 0;  // what each further expansion of a vertex takes off its log priority
+  int rejections = 3;   // retrievals of one vertex that verification may reject before it is expanded
   CollisionOptions collision;
   PushOptions push;
   RetrievalOptions retrieval;

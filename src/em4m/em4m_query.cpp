@@ -40,9 +40,12 @@ PlanResult Em4mQuery::run() {
 }
 
 void Em4mQuery::search() {
-  if (!choose_region()) return;
-  Vertex& root = add_vertex(nullptr, {}, WorldState::start_of(problem_.scene));
-  open(root);
+  if (!choose_regions()) return;
+  for (int r = 0; r < static_cast<int>(regions_.size()); ++r) {
+    Vertex& root = add_vertex(r, nullptr, {}, WorldState::start_of(problem_.scene));
+    root.retrieval_tried = r > 0;  // the same rearrangement: asked once
+    open(root);
+  }
   while (!over() && !open_.empty()) {
     if (context_.stop->stopped()) return stopped();
     if (result_.stats.expansions >= options_.max_expansions)
@@ -66,14 +69,13 @@ void Em4mQuery::search() {
              what_is_in_the_way());
 }
 
-bool Em4mQuery::choose_region() {
+bool Em4mQuery::choose_regions() {
   const WorldState start = WorldState::start_of(problem_.scene);
   const Eigen::AlignedBox3d space = object_space(problem_.scene);
-  std::vector<RetrievalOutcome> outcomes(static_cast<std::size_t>(settings_.regions));
-  std::optional<Priority> best;
+  std::vector<std::pair<Priority, VoxelVolume>> found;
   std::map<std::string, std::int64_t> failures;
   bool exhausted = true;
-  for (int k = 0, first = 0; k < settings_.regions; ++k) {
+  for (int first = 0; static_cast<int>(found.size()) < settings_.regions;) {
     RetrievalOutcome outcome =
         retrievals_->plan(workers_.front()->collision(), start, ObjectSet(problem_.scene.size()), first, context_.stop);
     if (outcome.stopped) return stopped(), false;
@@ -88,12 +90,12 @@ bool Em4mQuery::choose_region() {
                                       space, settings_.retrieval.cell);
     std::vector<ObjectLoad> loads(problem_.scene.size());
     for (ObjectId id : movables_) loads[id.index()] = object_load(region, problem_.scene[id], start.X_WO(id));
-    const Priority priority = lexicographic_priority(region_features(region, loads));
-    // Fewer objects in the way first, then less of them.
-    const Priority rank{priority[1], priority[0], priority[2]};
-    if (!best || rank > *best) best = rank, region_ = std::move(region);
+    const Priority load = lexicographic_priority(region_features(region, loads));
+    found.push_back({{load[1], load[0], load[2]}, std::move(region)});  // fewer objects, then less of them
   }
-  if (best) return true;
+  std::ranges::stable_sort(found, std::greater(), [](const auto& entry) { return entry.first; });
+  for (auto& [load, region] : found) regions_.push_back(std::move(region));
+  if (!regions_.empty()) return true;
   count_failures(retrievals_->rejected(), "grasp_");
   count_failures(failures, "retrieval_");
   std::string causes;
@@ -108,10 +110,12 @@ bool Em4mQuery::choose_region() {
   return false;
 }
 
-Vertex& Em4mQuery::add_vertex(Vertex* parent, PushStep step, WorldState state) {
+Vertex& Em4mQuery::add_vertex(int region, Vertex* parent, PushStep step, WorldState state) {
+  const VoxelVolume& volume = regions_[static_cast<std::size_t>(region)];
   Vertex& v = vertices_.emplace_back();
   v.number = static_cast<int>(vertices_.size()) - 1;
   v.parent = parent;
+  v.region = region;
   v.step = std::move(step);
   v.pushes = parent ? parent->pushes + 1 : 0;
   v.state = std::move(state);
@@ -127,19 +131,26 @@ Vertex& Em4mQuery::add_vertex(Vertex* parent, PushStep step, WorldState state) {
 }
 
 void Em4mQuery::open(Vertex& vertex) {
-  fewest_pushes_[class_of(problem_.scene, movables_, vertex.state)] = vertex.pushes;
+  fewest_pushes_[{vertex.region, class_of(problem_.scene, movables_, vertex.state)}] = vertex.pushes;
   open_.insert(&vertex);
-  post_retrieval(vertex, 100);
+  if (!vertex.retrieval_tried) post_retrieval(vertex, 100);
 }
 
 void Em4mQuery::add_successor(Vertex& vertex, const ObjectPath& path, std::shared_ptr<const PushOutcome> push,
                               WorldState after) {
-  const auto known = fewest_pushes_.find(class_of(problem_.scene, movables_, after));
+  const auto known = fewest_pushes_.find({vertex.region, class_of(problem_.scene, movables_, after)});
   if (known != fewest_pushes_.end() && known->second <= vertex.pushes + 1) {
     ++result_.stats.failures["push_leads_to_known"];
     return;
   }
-  open(add_vertex(&vertex, {path.object, path.goal, std::move(push)}, std::move(after)));
+  open(add_vertex(vertex.region, &vertex, {path.object, path.goal, std::move(push)}, std::move(after)));
+}
+
+void Em4mQuery::reorder(Vertex& vertex) {
+  open_.erase(&vertex);
+  vertex.priority = vertex.promise;
+  vertex.priority[0] -= settings_.patience * vertex.expansions;
+  open_.insert(&vertex);
 }
 
 void Em4mQuery::close(Vertex& vertex) {
@@ -215,7 +226,7 @@ void Em4mQuery::learn(const Verdict& verdict, Vertex& vertex) {
     if (seen != last.state) {  // what planning predicted was off: go on from what the replay saw
       ++result_.stats.failures["replay_mismatch"];
       last.refuted = true;
-      open(add_vertex(last.parent, last.step, std::move(seen)));
+      open(add_vertex(last.region, last.parent, last.step, std::move(seen)));
       return;
     }
   }
@@ -226,9 +237,11 @@ void Em4mQuery::expand(Vertex& vertex) {
   if (!grow_invalid_goals(vertex)) return close(vertex);
   ++result_.stats.expansions;
   ++vertex.expansions;
+  reorder(vertex);
   signature_.add(content_hash(movables_, vertex.state));
   const Stopwatch watch;
-  const ObjectPathsResult found = path_finder_->solve(vertex.state, region_, vertex.invalid, context_.stop);
+  const ObjectPathsResult found = path_finder_->solve(vertex.state, regions_[static_cast<std::size_t>(vertex.region)],
+                                                      vertex.invalid, context_.stop);
   result_.stats.mapf_s += watch.seconds();
   ++result_.stats.mapf_calls;
   if (found.stopped) return stopped();

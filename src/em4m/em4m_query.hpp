@@ -39,10 +39,11 @@ class Em4mQuery {
 
   void prepare();
   void search();
-  bool choose_region();
+  bool choose_regions();
 
   // Vertices.
-  Vertex& add_vertex(Vertex* parent, PushStep step, WorldState state);
+  Vertex& add_vertex(int region, Vertex* parent, PushStep step, WorldState state);
+  void reorder(Vertex& vertex);
   void open(Vertex& vertex);
   void add_successor(Vertex& vertex, const ObjectPath& path, std::shared_ptr<const PushOutcome> push, WorldState after);
   void close(Vertex& vertex);
@@ -82,12 +83,12 @@ class Em4mQuery {
   std::vector<std::unique_ptr<PushPlanner>> workers_;  // one per thread
   std::unique_ptr<RetrievalPlanner> retrievals_;
   std::unique_ptr<ObjectPathFinder> path_finder_;
-  VoxelVolume region_;  // V(gamma) of the paper
+  std::vector<VoxelVolume> regions_;  // V(gamma) of the paper, least obstructed first
   JobBoard board_;
 
   std::deque<Vertex> vertices_;
   std::set<Vertex*, MorePromising> open_;
-  std::map<RearrangementClass, int> fewest_pushes_;
+  std::map<std::pair<int, RearrangementClass>, int> fewest_pushes_;  // by region
   PushDatabase database_;
   std::map<ObjectId, std::map<std::string, int>> causes_;  // of failed attempts, by object
   const Vertex* best_ = nullptr;

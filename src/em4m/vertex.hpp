@@ -34,9 +34,11 @@ struct Vertex {
   Vertex* parent = nullptr;
   PushStep step;  // from the parent; none at the root
   int pushes = 0;
+  int region = 0;  // index of the negative goal region that this vertex is to clear
   WorldState state;
   std::vector<ObjectLoad> loads;  // by object id
-  Priority priority{};
+  Priority promise{};             // f(v)
+  Priority priority{};            // f(v), less what expansions in vain have cost it
 
   // What expansions found out (kappa of Algorithm 1).
   std::map<ObjectId, InvalidGoals> invalid;
