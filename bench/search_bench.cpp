@@ -7,7 +7,6 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
-#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "mamo/common/hash.hpp"
 #include "mamo/search/eager_order.hpp"
 #include "mamo/search/lazy_order.hpp"
 #include "mamo/search/parallel_search.hpp"
@@ -198,7 +198,7 @@ std::uint64_t signature() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::printf("signature: %016" PRIx64 "\n", signature());
+  benchmark::AddCustomContext("signature", mamo::to_hex(signature()));
   for (const bool engine : {false, true}) {
     const std::string name = engine ? "pop_and_commit/engine" : "pop_and_commit/serial";
     benchmark::RegisterBenchmark(name.c_str(), pop_and_commit, engine)->Unit(benchmark::kMillisecond);

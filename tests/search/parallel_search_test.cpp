@@ -17,7 +17,7 @@ namespace {
 using Result = SearchResult<ToyState>;
 using Contexts = std::vector<RandomGraph::Context>;
 
-/// tools/check --long sets it: 20 times as many graphs with random delays, and 64 threads.
+/// tools/check --long sets it: 20 repeats with random delays, each with its own, and 64 threads.
 bool long_run() { return std::getenv("MAMO_LONG") != nullptr; }
 
 constexpr Schedule kSchedules[] = {Schedule::batch, Schedule::window, Schedule::runahead};
@@ -29,7 +29,7 @@ Contexts contexts(int threads, std::uint64_t jitter = 0) {
 }
 
 template <template <class, class> class OrderT>
-void expect_serial_on_threads(std::uint64_t seed, int threads, bool jitter, Executor& executor) {
+void expect_serial_on_threads(std::uint64_t seed, int threads, std::uint64_t jitter, Executor& executor) {
   RandomStream random(seed, {0x70617261});
   const RandomGraph domain(random_toy(seed));
   SearchOptions options;
@@ -45,8 +45,8 @@ void expect_serial_on_threads(std::uint64_t seed, int threads, bool jitter, Exec
     parallel.executor = &executor;
     parallel.measure = true;  // the engine also with one thread
     SCOPED_TRACE(testing::Message() << "seed " << seed << " " << to_string(schedule) << " batch " << parallel.batch
-                                    << " threads " << threads);
-    Contexts all = contexts(threads, jitter ? seed : 0);
+                                    << " threads " << threads << " jitter " << jitter);
+    Contexts all = contexts(threads, jitter);
     ParallelStats stats;
     expect_same(serial, parallel_search<OrderT, RandomGraph>(domain, all, options, parallel, &stats));
     EXPECT_EQ(stats.used, serial.counters.evaluations);
@@ -55,13 +55,18 @@ void expect_serial_on_threads(std::uint64_t seed, int threads, bool jitter, Exec
 
 class OnThreads : public testing::TestWithParam<int> {
  protected:
-  /// 500 graphs as fast as they go, then some with random delays in the evaluations.
+  /// 500 graphs as fast as they go, then 40 with random delays in the evaluations, again and again.
   template <template <class, class> class OrderT>
   void expect_serial_on_many() {
     Executor executor(GetParam());
-    const std::uint64_t delayed = long_run() ? 800 : 40;
-    for (std::uint64_t seed = 1; seed <= 500 + delayed && !HasFailure(); ++seed) {
-      expect_serial_on_threads<OrderT>(seed, GetParam(), seed > 500, executor);
+    for (std::uint64_t seed = 1; seed <= 500 && !HasFailure(); ++seed) {
+      expect_serial_on_threads<OrderT>(seed, GetParam(), 0, executor);
+    }
+    const std::uint64_t repeats = long_run() ? 20 : 1;
+    for (std::uint64_t repeat = 1; repeat <= repeats; ++repeat) {
+      for (std::uint64_t seed = 501; seed <= 540 && !HasFailure(); ++seed) {
+        expect_serial_on_threads<OrderT>(seed, GetParam(), hash_combine(seed, repeat) | 1, executor);
+      }
     }
   }
 };

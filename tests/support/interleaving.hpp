@@ -27,8 +27,9 @@ SearchResult<typename D::State> run_interleaved(const D& domain, const SearchOpt
   Sched scheduler(domain, table, options, parallel, how.workers);
   typename D::Context context{};
   typename StateTable<D>::Writer writer;
+  std::vector<LazyEdge> edges;
   const auto expand_state = [&](StateId s) {
-    return expand(domain, context, table, writer, s, scheduler.weight(), Sched::Order::kLazy);
+    return expand(domain, context, table, writer, edges, s, scheduler.weight(), Sched::Order::kLazy);
   };
   const StateId start = table.intern(domain.start());
   scheduler.begin(start, Sched::Order::kLazy ? expand_state(start) : nullptr);

@@ -36,14 +36,16 @@ struct Expansion {
 };
 
 /// Generates the successors of a state: dear enough (heuristics of all children) to be done by workers, unlocked.
+/// scratch: a worker's own, so that the vectors that stay are allocated once, in their final size.
 template <Domain D>
 std::unique_ptr<Expansion> expand(const D& domain, typename D::Context& context, StateTable<D>& table,
-                                  typename StateTable<D>::Writer& writer, StateId state, const Weight& weight,
-                                  bool by_f) {
+                                  typename StateTable<D>::Writer& writer, std::vector<LazyEdge>& scratch, StateId state,
+                                  const Weight& weight, bool by_f) {
+  domain.successors(context, table.state(state), scratch);
   auto expansion = std::make_unique<Expansion>();
-  std::vector<LazyEdge>& edges = expansion->edges;
-  domain.successors(context, table.state(state), edges);
+  const std::vector<LazyEdge>& edges = expansion->edges = scratch;
   expansion->cells.resize(edges.size());
+  expansion->order.reserve(edges.size());
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(edges.size()); ++i) {
     const LazyEdge& edge = edges[static_cast<std::size_t>(i)];
     if (edge.heuristic >= kUnreachable) continue;
@@ -55,13 +57,13 @@ std::unique_ptr<Expansion> expand(const D& domain, typename D::Context& context,
       }
     }
   }
-  if (by_f) {
-    std::stable_sort(expansion->order.begin(), expansion->order.end(), [&](std::int32_t a, std::int32_t b) {
-      const LazyEdge &x = edges[static_cast<std::size_t>(a)], &y = edges[static_cast<std::size_t>(b)];
-      const Cost fx = weight.f(x.cost, x.heuristic), fy = weight.f(y.cost, y.heuristic);
-      return fx != fy ? fx < fy : x.cost > y.cost;
-    });
-  }
+  if (!by_f) return expansion;
+  std::sort(expansion->order.begin(), expansion->order.end(), [&](std::int32_t a, std::int32_t b) {
+    const LazyEdge &x = edges[static_cast<std::size_t>(a)], &y = edges[static_cast<std::size_t>(b)];
+    const Cost fx = weight.f(x.cost, x.heuristic), fy = weight.f(y.cost, y.heuristic);
+    if (fx != fy) return fx < fy;
+    return x.cost != y.cost ? x.cost > y.cost : a < b;
+  });
   return expansion;
 }
 

@@ -49,8 +49,8 @@ class ParallelSearch {
     if (stopped()) {
       scheduler_.abort(EndReason::stopped);
     } else {
-      typename StateTable<D>::Writer writer;
-      scheduler_.begin(start, Sched::Order::kLazy ? expand_state(0, writer, start) : nullptr, now());
+      Worker caller;
+      scheduler_.begin(start, Sched::Order::kLazy ? expand_state(caller, start) : nullptr, now());
     }
     if (!scheduler_.ended()) {
       if (parallel_.executor) {
@@ -81,6 +81,7 @@ class ParallelSearch {
   struct Worker {
     int index = 0;
     typename StateTable<D>::Writer writer;
+    std::vector<LazyEdge> edges;                     // scratch
     std::vector<typename Sched::Job> jobs;           // in slots index * kMaxBatch + 0, 1, ...
     std::vector<typename Sched::Finished> finished;  // of the first jobs, not handed in yet
     std::size_t handed_in = 0;
@@ -196,16 +197,16 @@ class ParallelSearch {
     const StateId state = job.generates() ? job.need.parent : finished.outcome.child;
     if (table_.expanded(state) || table_.closed_by(state) != kNoState) return finished;
     try {
-      finished.expansion = expand_state(worker.index, worker.writer, state);
+      finished.expansion = expand_state(worker, state);
     } catch (...) {
       finished.expansion_error = std::current_exception();
     }
     return finished;
   }
 
-  std::unique_ptr<Expansion> expand_state(int w, typename StateTable<D>::Writer& writer, StateId state) {
-    return expand(domain_, contexts_[static_cast<std::size_t>(w)], table_, writer, state, scheduler_.weight(),
-                  Sched::Order::kLazy);
+  std::unique_ptr<Expansion> expand_state(Worker& worker, StateId state) {
+    return expand(domain_, contexts_[static_cast<std::size_t>(worker.index)], table_, worker.writer, worker.edges,
+                  state, scheduler_.weight(), Sched::Order::kLazy);
   }
   bool stopped() const { return options_.stop && options_.stop->stopped(); }
   double now() const {

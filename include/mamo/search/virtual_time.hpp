@@ -122,7 +122,7 @@ class VirtualSearch {
 
   int index(const Worker& w) const { return static_cast<int>(&w - workers_.data()); }
   std::unique_ptr<Expansion> expand_state(StateId state) {
-    return expand(domain_, context_, table_, writer_, state, scheduler_.weight(), Sched::Order::kLazy);
+    return expand(domain_, context_, table_, writer_, edges_, state, scheduler_.weight(), Sched::Order::kLazy);
   }
 
   /// Lets all idle workers take what they can, then shortens what has been cancelled.
@@ -176,6 +176,7 @@ class VirtualSearch {
   std::vector<Worker> workers_;
   typename D::Context context_{};
   typename StateTable<D>::Writer writer_;
+  std::vector<LazyEdge> edges_;  // scratch
   double clock_ = 0;
   VirtualRun run_;
 };
