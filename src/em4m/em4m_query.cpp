@@ -122,9 +122,9 @@ Vertex& Em4mQuery::add_vertex(int region, Vertex* parent, PushStep step, WorldSt
   v.loads = parent ? parent->loads : std::vector<ObjectLoad>(problem_.scene.size());
   for (ObjectId id : movables_)
     if (!parent || parent->state[id] != v.state[id])
-      v.loads[id.index()] = object_load(region_, problem_.scene[id], v.state.X_WO(id));
-  const RegionFeatures features = region_features(region_, v.loads);
-  v.priority =
+      v.loads[id.index()] = object_load(volume, problem_.scene[id], v.state.X_WO(id));
+  const RegionFeatures features = region_features(volume, v.loads);
+  v.promise = v.priority =
       variant_.learned_priority ? learned_priority(features, settings_.priority) : lexicographic_priority(features);
   if (!best_ || MorePromising()(&v, best_)) best_ = &v;
   return v;
