@@ -196,7 +196,7 @@ bool ObjectAgents::violates(int a, AgentNode n, const Witness& w) const {
   for (const Prism& prism : agent(a).footprint.prisms) {
     // Both bodies reach beyond the point on either side by half of what counts as common height.
     const double margin = kLeastCommonHeight / 2;
-    if (w.p_W.z() - margin < prism.low || w.p_W.z() + margin > prism.high) continue;
+    if (w.p_W.z() - margin <= prism.low || w.p_W.z() + margin >= prism.high) continue;
     if (prism.shadow.signed_distance(p) < -kRounding) return true;
   }
   return false;

@@ -75,6 +75,27 @@ std::vector<Vector2d> shortcut(const ObjectAgents& agents, int a, const std::vec
   return points;
 }
 
+/// A few crowds need far more than the suboptimality allows until it is known that nothing cheaper exists: rounds of
+/// an eighth, two and five eighths of the budget, each with twice the suboptimality of the one before.
+search::CbsResult search_in_rounds(ObjectAgents& agents, const ObjectPathsOptions& options, StopSource* stop) {
+  search::CbsResult found;
+  std::int64_t expansions = 0, nodes = 0;
+  double suboptimality = options.suboptimality;
+  for (const int eighths : {1, 2, 5}) {
+    search::CbsOptions round;
+    round.suboptimality = suboptimality;
+    round.max_expansions = options.max_expansions * eighths / 8;
+    round.max_nodes = std::int64_t{options.max_nodes} * eighths / 8;
+    round.stop = stop;
+    found = search::conflict_based_search(agents, round);
+    found.expansions = expansions += found.expansions;
+    found.nodes = nodes += found.nodes;
+    if (found.status != search::CbsStatus::budget) break;
+    suboptimality *= 2;
+  }
+  return found;
+}
+
 }  // namespace
 
 struct ObjectPathFinder::Impl {
@@ -128,12 +149,7 @@ ObjectPathsResult ObjectPathFinder::solve(const WorldState& state, const VoxelVo
   mapf::RegionShadow shadow(region);
   ObjectAgents agents(impl_->stage.grid(), impl_->options, impl_->agents(state, shadow, invalid), shadow,
                       [&](const ObjectAgent& a) { return impl_->cache.get(impl_->stage, a, state[a.object]); });
-  search::CbsOptions options;
-  options.suboptimality = impl_->options.suboptimality;
-  options.max_expansions = impl_->options.max_expansions;
-  options.max_nodes = impl_->options.max_nodes;
-  options.stop = stop;
-  const search::CbsResult found = search::conflict_based_search(agents, options);
+  const search::CbsResult found = search_in_rounds(agents, impl_->options, stop);
 
   ObjectPathsResult out;
   out.solved = found.status == search::CbsStatus::solved;

@@ -18,7 +18,7 @@ std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
             [](const Vector2d& a, const Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
   std::vector<Vector2d> hull;
   const auto chain = [&](auto begin, auto end) {
-    const std::size_t base = hull.size();
+    const std::size_t base = hull.empty() ? 0 : hull.size() - 1;  // the last of one chain is the first of the next
     for (auto it = begin; it != end; ++it) {
       while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *it - hull.back()) <= 0)
         hull.pop_back();

@@ -31,7 +31,7 @@ using InvalidGoals = std::map<GridCell, int>;  // -> number of failed samples
 struct ObjectPathsOptions {
   double cell = 0.01;                     // m
   bool neighbour_penalties = true;        // off: only exact hits count (ablation posdb)
-  double suboptimality = 2.0;             // of both levels (ECBS)
+  double suboptimality = 2.0;             // of both levels (ECBS); doubled twice at most, as the budget runs out
   double clearance = 0.15;                // m, of the conflict heuristic that keeps paths away from what stays
   std::int64_t max_expansions = 200'000;  // low-level expansions of one call
   int max_nodes = 2'000;                  // high-level nodes of one call
@@ -59,7 +59,8 @@ struct ObjectPathsResult {
 /// threads at once, each with its own scratch inside. Depends on the arguments only.
 class ObjectPathFinder {
  public:
-  /// What stays: fixtures, immovables and `target` (the object of interest).
+  /// What stays, where the scene has it: fixtures, immovables and `target` (the object of interest). The problem must
+  /// outlive the finder.
   ObjectPathFinder(const Problem& problem, ObjectId target, const ObjectPathsOptions& options);
   ~ObjectPathFinder();
 
