@@ -11,7 +11,10 @@ class Em4mPlanner : public Planner {
   std::string name() const override { return variant_.name; }
   bool can_solve(const Task& task) const override { return std::holds_alternative<Retrieve>(task); }
   PlanResult plan(const Problem& problem, const PlanOptions& options, const PlanContext& context) override {
-    return Em4mQuery(variant_, problem, options, context).run();
+    Em4mOptions settings;
+    settings.table().apply(options.set);
+    settings.rearrangement.paths.neighbour_penalties = variant_.negative_cache;
+    return Em4mQuery(variant_, problem, options, context, settings).run();
   }
 
  private:

@@ -45,7 +45,6 @@ struct Vertex {
   std::vector<std::pair<ObjectId, GridCell>> valid_goals;  // of valid pushes, not in `invalid` yet
   bool news = true;                                        // `invalid` has grown since the last call
   int expansions = 0;
-  bool closed = false;
   bool refuted = false;  // the replay of its last push came out otherwise
 
   // Retrieval against all objects, computed ahead.

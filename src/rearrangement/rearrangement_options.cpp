@@ -1,15 +1,11 @@
-#include "em4m/em4m_options.hpp"
+#include "mamo/rearrangement/rearrangement_query.hpp"
 
 namespace mamo {
 
-OptionTable Em4mOptions::table() {
-  OptionTable t;
+void RearrangementOptions::add_to(OptionTable& t) {
   t.add("attempts", attempts, 1, 1000, "pushes tried per object and path");
-  t.add("regions", regions, 1, 100,
-        "negative goal regions to choose from, of retrievals without movables by different grasps");
-  t.add("patience", patience, 0.0, 1e6, "what each further expansion of a rearrangement takes off its log priority");
-  t.add("rejections", rejections, 1, 100,
-        "retrievals of a rearrangement that verification may reject before it is expanded");
+  t.add("regions", regions, 1, 100, "negative goal regions, of retrievals without movables by different grasps");
+  t.add("rejections", rejections, 1, 100, "retrievals of one rearrangement that verification may reject");
   t.add("grasps", retrieval.grasps, 1, 10000, "grasp poses drawn around the given pre-grasp");
   t.add("grasp_solutions", retrieval.solutions, 1, 100, "inverse-kinematics solutions per grasp pose");
   t.add("lift", retrieval.lift, 0.0, 1.0, "height by which the object is lifted before it is drawn out (m)");
@@ -25,8 +21,6 @@ OptionTable Em4mOptions::table() {
   t.add("overshoot", push.overshoot, 0.0, 0.5, "length of a push beyond the end of its path (m)");
   t.add("straight", push.straight, "push along one straight segment instead of the shortcut path");
   t.add("approach_nodes", push.approach_nodes, 1, 10'000'000, "tree nodes of the search for an approach");
-  priority.add_to(t);
-  return t;
 }
 
 }  // namespace mamo

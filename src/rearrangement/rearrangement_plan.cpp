@@ -1,4 +1,4 @@
-#include "mamo/retrieval/rearrangement_plan.hpp"
+#include "mamo/rearrangement/rearrangement_plan.hpp"
 
 #include <cmath>
 
