@@ -15,7 +15,9 @@ constexpr std::uint64_t kIkKey = 0x67726173, kWayKey = 0x776179, kStartKey = 0x7
 constexpr double kReachStep = 0.01, kLiftStep = 0.005, kBackStep = 0.02;  // m, of the lines of the tip
 constexpr double kClearance = 0.1;    // m: the line back may end where the tip is so far outside the objects' space
 constexpr double kLongestBack = 0.7;  // m
-constexpr int kStaticNodes = 4;       // times the budget of a call: this search is made once
+constexpr int kFirstNodes = 300;      // of the search for each way home; a way that needs more waits until it is wanted
+constexpr int kLastNodes = 4;         // times the budget of a call, where no way home was found at all
+constexpr std::size_t kJoined = 8;    // ways that another may join, the latest ones
 
 /// Makes the candidates one after the other.
 class Builder {
@@ -32,6 +34,8 @@ class Builder {
     const std::vector<GraspPose> poses =
         grasp_poses(around_.problem.scene[around_.task().object], around_.task().X_WT_pregrasp, set_.options.grasps);
     for (std::size_t g = 0; g < poses.size(); ++g) add(poses[g], g);
+    for (std::size_t c = 0; c < set_.ways.size() && known_.empty(); ++c)
+      find_way(c, {kLastNodes * set_.options.max_nodes});
   }
 
  private:
@@ -42,8 +46,8 @@ class Builder {
     if (start == home)
       set_.from_start = {start};
     else
-      set_.from_start = legs_.search(Phase::approach, start, home, RandomStream(set_.seed, {kStartKey}),
-                                     {kStaticNodes * set_.options.max_nodes}, nullptr);
+      set_.from_start = legs_.search(Phase::approach, start, {home}, RandomStream(set_.seed, {kStartKey}),
+                                     {kLastNodes * set_.options.max_nodes}, nullptr);
   }
 
   void add(const GraspPose& pose, std::size_t g) {
@@ -77,9 +81,10 @@ class Builder {
     legs_.grip(q);
     if (std::string cause = lift(candidate, X_WT); !cause.empty()) return cause;
     WayHome way;
-    if (std::string cause = find_way(candidate, out, way); !cause.empty()) return cause;
+    line_back(candidate, out, way);
     set_.candidates.push_back(std::move(candidate));
     set_.ways.push_back(std::move(way));
+    find_way(set_.ways.size() - 1, {kFirstNodes});
     return {};
   }
 
@@ -98,17 +103,13 @@ class Builder {
     return {};
   }
 
-  std::string find_way(const GraspCandidate& candidate, const Eigen::Vector3d& out, WayHome& way) {
-    line_back(candidate, out, way);
-    const RandomStream random(set_.seed, {kWayKey, set_.candidates.size()});
-    const std::vector<Eigen::VectorXd> rest = legs_.search(Phase::carry, way.path.back(), around_.task().home, random,
-                                                           {kStaticNodes * set_.options.max_nodes}, nullptr);
-    if (rest.empty()) {
-      set_.complete = false;
-      return "no_way_home";
-    }
-    way.path.insert(way.path.end(), rest.begin() + 1, rest.end());
-    return {};
+  void find_way(std::size_t c, const JointPathOptions& options) {
+    legs_.grip(set_.candidates[c].reach.back());
+    std::vector<Suffix> others;
+    for (std::size_t k = known_.size(); k-- > 0 && others.size() < kJoined;)
+      others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
+    if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
+      known_.push_back(c);
   }
 
   /// From lifted back above the pre-grasp pose, and on until the tip is outside where objects can be.
@@ -146,6 +147,7 @@ class Builder {
   InverseKinematics ik_;
   Legs legs_;
   Eigen::AlignedBox3d space_;
+  std::vector<std::size_t> known_;  // candidates with a way home
 };
 
 }  // namespace
@@ -156,6 +158,36 @@ GraspSet::GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinemati
       options(options_in),
       seed(seed_in) {
   Builder(*this, checker).run();
+}
+
+bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vector<Suffix>& others, RandomStream random,
+               const JointPathOptions& options, StopSource* stop) {
+  const Eigen::VectorXd& home = grasps.around.task().home;
+  struct Source {
+    std::size_t other, index;
+  };
+  std::vector<Source> sources{{0, 0}};
+  std::vector<Eigen::VectorXd> goals{home};
+  for (std::size_t k = 0; k < others.size(); ++k)
+    for (std::size_t i = others[k].way->path.size() - 1; i-- > others[k].from;) {
+      goals.push_back(others[k].way->path[i]);
+      sources.push_back({k, i});
+    }
+  std::vector<Eigen::VectorXd> rest = legs.search(Phase::carry, way.path.back(), goals, random, options, stop);
+  if (rest.empty()) return false;
+  const auto reached = static_cast<std::size_t>(std::find(goals.begin(), goals.end(), rest.back()) - goals.begin());
+  if (reached > 0) {
+    const std::vector<Eigen::VectorXd>& other = others[sources[reached].other].way->path;
+    rest.insert(rest.end(), other.begin() + static_cast<std::ptrdiff_t>(sources[reached].index) + 1, other.end());
+    // The other way was checked with the object held otherwise.
+    if (!legs.free(Phase::carry, rest)) {
+      rest = legs.search(Phase::carry, way.path.back(), {home}, random, options, stop);
+      if (rest.empty()) return false;
+    }
+  }
+  way.path.insert(way.path.end(), rest.begin() + 1, rest.end());
+  way.known = true;
+  return true;
 }
 
 std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,

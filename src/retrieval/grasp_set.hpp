@@ -19,6 +19,7 @@ struct WayHome {
   std::vector<Eigen::VectorXd> path;
   std::size_t over_pregrasp = 0;  // index: above the pre-grasp pose; 0 where the line does not come so far
   std::size_t line_end = 0;       // index: the last point of the straight line
+  bool known = false;             // the path ends at home, else at line_end
 };
 
 struct GraspSet {
@@ -32,8 +33,16 @@ struct GraspSet {
   std::vector<GraspCandidate> candidates;
   std::vector<WayHome> ways;                     // one per candidate
   std::map<std::string, std::int64_t> rejected;  // grasp poses and solutions that gave no candidate, by cause
-  bool complete = true;                          // nothing was left out for want of budget
 };
+
+/// Completes a way that ends somewhere, by a search for home or for a point of `others` from which home is known to be
+/// free (an index into each: the first such point). Held objects only. False if the budget is used up.
+struct Suffix {
+  const WayHome* way;
+  std::size_t from;
+};
+bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vector<Suffix>& others, RandomStream random,
+               const JointPathOptions& options, StopSource* stop);
 
 /// The approach that belongs to a way home, its end lowered onto the pre-grasp; empty where it is not free.
 std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,

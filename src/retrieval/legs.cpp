@@ -105,12 +105,14 @@ double Legs::tilt(const Eigen::VectorXd& q) const {
   return std::acos(std::clamp((around_.kinematics->tip_pose(q).linear() * up_T_).z(), -1.0, 1.0));
 }
 
-std::vector<Eigen::VectorXd> Legs::search(Phase phase, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+std::vector<Eigen::VectorXd> Legs::search(Phase phase, const Eigen::VectorXd& from, std::vector<Eigen::VectorXd> goals,
                                           RandomStream random, const JointPathOptions& options, StopSource* stop) {
   const bool held = phase == Phase::carry;
   hold(held);
-  JointPathQuery query{from, {to}, around_.fixtures, phase == Phase::approach ? avoided_with_object_ : avoided_, {}};
-  const double limit = std::max({around_.max_object_tilt, tilt(to) + kTiltSlack, tilt(from) + kTiltSlack});
+  const double at_ends = std::max(tilt(from), tilt(around_.task().home)) + kTiltSlack;
+  const double limit = std::max(around_.max_object_tilt, at_ends);
+  JointPathQuery query{
+      from, std::move(goals), around_.fixtures, phase == Phase::approach ? avoided_with_object_ : avoided_, {}};
   if (held && limit < std::numbers::pi) {
     query.accept = [this, limit](const Eigen::VectorXd& q) { return tilt(q) <= limit; };
     query.accept_step = kAcceptStep;

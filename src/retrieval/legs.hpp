@@ -52,8 +52,8 @@ class Legs {
   /// How far the held object would be tilted against its stand (rad).
   double tilt(const Eigen::VectorXd& q) const;
 
-  /// Empty if none is found.
-  std::vector<Eigen::VectorXd> search(Phase phase, const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+  /// From `from` to one of `goals`; the tilt of what is held stays below its limit. Empty if none is found.
+  std::vector<Eigen::VectorXd> search(Phase phase, const Eigen::VectorXd& from, std::vector<Eigen::VectorXd> goals,
                                       RandomStream random, const JointPathOptions& options, StopSource* stop);
 
   /// What the last edge that was not free hit: the id of an object, or "itself".

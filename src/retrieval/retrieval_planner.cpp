@@ -34,7 +34,7 @@ class Call {
       if (stopped()) return std::move(out_);
       by_search(blocked[k]);
     }
-    out_.exhausted = !out_.path && blocked.empty() && set_.complete;
+    out_.exhausted = !out_.path && blocked.empty();
     return std::move(out_);
   }
 
@@ -62,25 +62,30 @@ class Call {
 
   bool by_known_way(int c) {
     const WayHome& way = set_.ways[static_cast<std::size_t>(c)];
-    return legs_.free(Phase::carry, way.path) && take(c, way);
+    return way.known && legs_.free(Phase::carry, way.path) && take(c, way);
   }
 
+  /// Back along the line as far as it is free, then a search for home or for what is still free of the known way.
   bool by_search(int c) {
     const WayHome& known = set_.ways[static_cast<std::size_t>(c)];
     legs_.grip(set_.candidates[static_cast<std::size_t>(c)].reach.back());
     WayHome way = known;
+    way.known = false;
     way.path.resize(known.line_end + 1);
     way.path.resize(std::max<std::size_t>(legs_.free_points(Phase::carry, way.path), 1));
     way.line_end = way.path.size() - 1;
     if (way.line_end < way.over_pregrasp) way.over_pregrasp = 0;
+    std::vector<retrieval::Suffix> others;
+    if (known.known) {
+      std::size_t from = known.path.size() - 1;
+      while (from > known.line_end && legs_.free(Phase::carry, known.path[from - 1], known.path[from])) --from;
+      others.push_back({&known, from});
+    }
     const RandomStream random(set_.seed, {kHomeKey, static_cast<std::uint64_t>(c)});
-    const std::vector<Eigen::VectorXd> rest =
-        legs_.search(Phase::carry, way.path.back(), set_.around.task().home, random, {set_.options.max_nodes}, stop_);
-    if (rest.empty()) {
+    if (!retrieval::find_rest(set_, legs_, way, others, random, {set_.options.max_nodes}, stop_)) {
       ++out_.failures["no_way_home"];
       return false;
     }
-    way.path.insert(way.path.end(), rest.begin() + 1, rest.end());
     return take(c, way);
   }
 
@@ -92,7 +97,7 @@ class Call {
     path.reach = candidate.reach;
     path.approach = approach_of(set_, legs_, way, candidate.reach.front());
     if (path.approach.empty())
-      path.approach = legs_.search(Phase::approach, set_.around.problem.q_start, candidate.reach.front(),
+      path.approach = legs_.search(Phase::approach, set_.around.problem.q_start, {candidate.reach.front()},
                                    RandomStream(set_.seed, {kApproachKey, static_cast<std::uint64_t>(c)}),
                                    {set_.options.max_nodes}, stop_);
     if (path.approach.empty()) {
