@@ -64,7 +64,7 @@ void add_requests(Place& place, int attempts) {
   }
 }
 
-std::optional<Place> load(const std::string& path, int attempts) {
+std::optional<Place> load(const std::string& path) {
   io::LoadOptions options;
   Result<Problem> problem = io::load_problem(path, options);
   if (!problem.ok()) return std::nullopt;
@@ -97,15 +97,15 @@ void survey(int scenes, int attempts) {
   Sums sums;
   HashStream hash;
   std::map<std::pair<int, std::size_t>, std::map<int, std::pair<int, int>>> reached;
-  std::map<double, std::pair<int, int>> by_heading;
-  int groups = 0, groups_solved = 0;
+  std::map<double, std::pair<int, int>> by_heading; std::map<double,std::map<std::string,int>> heading_causes;
+  int o_all = 0, o_ok = 0, groups = 0, groups_solved = 0;
   double setup_ms = 0;
   for (const char* folder : {"5", "10", "15"})
     for (int k = 0; k < scenes; ++k) {
       char name[128];
       const int base = std::string(folder) == "5" ? 100000 : std::string(folder) == "10" ? 200000 : 300000;
       std::snprintf(name, sizeof name, "%s/em4m_scenes/%s/plan_%06d_SCENE.txt", test::shared_data().c_str(), folder, base + 2 * k);
-      std::optional<Place> loaded = load(name, attempts);
+      std::optional<Place> loaded = load(name);
       if (!loaded) continue;
       places().push_back(std::make_unique<Place>(std::move(*loaded)));
       Place& place = *places().back();
@@ -113,7 +113,7 @@ void survey(int scenes, int attempts) {
       place.planner = std::make_unique<PushPlanner>(place.problem, place.kinematics, PushOptions{}, 1);
       setup_ms += 1e3 * (thread_cpu_s() - t0);
       add_requests(place, attempts);
-      bool any = false;
+      bool any = false; std::map<int,int> objects;
       for (std::size_t i = 0; i < place.requests.size(); ++i) {
         const PushRequest& request = place.requests[i];
         const double begin = thread_cpu_s();
@@ -124,18 +124,20 @@ void survey(int scenes, int attempts) {
         if (out.violation && out.failure == PushFailure::violation) cause += " " + std::string(to_string(out.violation->kind));
         ++sums.causes[cause];
         ++sums.attempts;
-        sums.valid += out.valid();
+        sums.valid += out.valid(); objects[request.object.value] += out.valid();
         sums.times.start += out.times.start, sums.times.way += out.times.way, sums.times.approach += out.times.approach;
         sums.times.simulation += out.times.simulation, sums.times.retreat += out.times.retreat;
         const Eigen::Vector2d d = request.path[1] - request.path[0];
         auto& h = by_heading[std::round(100 * std::atan2(d.y(), d.x())) / 100];
-        ++h.second, h.first += out.valid();
+        ++heading_causes[std::abs(std::round(100 * std::atan2(d.y(), d.x())) / 100)][std::string(to_string(out.failure))]; ++h.second, h.first += out.valid();
         hash.add(static_cast<std::int32_t>(out.failure));
         for (const Eigen::VectorXd& q : out.push) hash.add(q[0]);
         if (request.attempt == 0) any = false, ++groups;
         if (out.valid() && !any) any = true, ++groups_solved;
       }
+      for (auto [o, c] : objects) ++o_all, o_ok += c > 0;
     }
+  std::printf("objects with a valid push: %d of %d\n", o_ok, o_all);
   std::printf("signature %s, %d attempts, %.1f %% valid; %d of %d paths valid within %d attempts\n", to_hex(hash.value()).c_str(), sums.attempts,
               100.0 * sums.valid / std::max(1, sums.attempts), groups_solved, groups, attempts);
   for (const auto& [cause, count] : sums.causes) std::printf("  %-34s %5d %5.1f %%\n", cause.c_str(), count, 100.0 * count / sums.attempts);
@@ -144,6 +146,13 @@ void survey(int scenes, int attempts) {
   const double n = sums.attempts;
   std::printf("  mean ms: start %.2f  way %.2f  approach %.2f  simulation %.2f  retreat %.2f\n", 1e3 * sums.times.start / n, 1e3 * sums.times.way / n,
               1e3 * sums.times.approach / n, 1e3 * sums.times.simulation / n, 1e3 * sums.times.retreat / n);
+  for (const auto& [heading, causes] : heading_causes) {
+    std::printf("  |heading| %4.2f:", heading);
+    int all = 0;
+    for (const auto& [cause, count] : causes) all += count;
+    for (const auto& [cause, count] : causes) std::printf(" %s %.0f", cause.c_str(), 100.0 * count / all);
+    std::printf("\n");
+  }
   for (const auto& [heading, c] : by_heading) std::printf("  heading %5.2f: %d of %d\n", heading, c.first, c.second);
 }
 

@@ -62,7 +62,7 @@ bool Gripper::surely_hits(const Scene& scene, const WorldState& state, const Obj
 }
 
 double Gripper::reach(const Eigen::Matrix3d& R_WT, const Eigen::Vector3d& d_W, double half_width) const {
-  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(d_W);
+  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(d_W);  // zero for a vertical d_W: every point counts
   double farthest = 0;
   for (const Eigen::Vector3d& p_T : p_TQ_) {
     const Eigen::Vector3d p = R_WT * p_T;

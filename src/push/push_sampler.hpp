@@ -16,24 +16,29 @@ namespace mamo::push {
 struct TipWay {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  // at the start
   std::vector<Eigen::Vector3d> points;                     // of the tip, the start first; straight between
+  double free_length = 0;                                  // m of it before the gripper reaches the object
 };
+
+/// How far from the usual a draw may be. `wide` also has steep and rolled grippers and starts far behind the object,
+/// from where what stands between is pushed along.
+enum class Spread { common, wide };
 
 /// Immutable after construction.
 class PushSampler {
  public:
   PushSampler(const Problem& problem, const ForwardKinematics& kinematics, const PushOptions& options);
 
-  /// Draws from `random`.
-  TipWay sample(const PushRequest& request, RandomStream& random) const;
+  /// Draws from `random`. The path's points must not all be the same.
+  TipWay sample(const PushRequest& request, Spread spread, RandomStream& random) const;
 
-  /// Is the tip at the start of the way inside or within a centimetre of one of these objects?
+  /// For certain a collision at the start of the way: the tip is in or within a centimetre of one of these objects, or
+  /// another point of the gripper is inside. No kinematics needed.
   bool start_inside(const TipWay& way, const WorldState& state, const ObjectSet& against) const;
-  const Gripper& gripper() const { return gripper_; }
 
  private:
-  /// How far the object reaches from its origin along the horizontal unit vector d (m).
+  Eigen::Matrix3d orientation(const Eigen::Vector2d& p, double push_yaw, Spread spread, RandomStream& random) const;
+  /// How far the object reaches from its origin along the unit vector d (m).
   double extent(const PushRequest& request, const Eigen::Vector3d& d) const;
-  double bottom(const PushRequest& request) const;  // z of its lowest point
 
   const Scene& scene_;
   const PushOptions options_;
