@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "support/push_chain.hpp"
 #include "support/shared_data.hpp"
 
 #include "mamo/common/cpu_time.hpp"
@@ -34,7 +35,9 @@ bool blocked(const Problem& problem, CollisionChecker& checker, ObjectId object,
   state[object] = quantise(X);
   checker.set_state(state);
   for (const auto& [a, b] : checker.overlapping_objects(0.001))
-    if ((a == object && !problem.scene[b].movable() && b.index() != 0) || (b == object && !problem.scene[a].movable() && a.index() != 0)) return true;
+    if ((a == object && !problem.scene[b].movable() && b.index() != 0) ||
+        (b == object && !problem.scene[a].movable() && a.index() != 0))
+      return true;
   return false;
 }
 
@@ -50,7 +53,8 @@ void add_requests(Place& place, int attempts) {
       for (const double length : {0.05, 0.1, 0.2}) {
         const Eigen::Vector2d d(std::cos(heading), std::sin(heading));
         bool free = true;
-        for (int k = 1; k <= 4; ++k) free = free && !blocked(problem, place.planner->collision(), id, p + d * (length * k / 4));
+        for (int k = 1; k <= 4; ++k)
+          free = free && !blocked(problem, place.planner->collision(), id, p + d * (length * k / 4));
         const Eigen::Vector2d end = p + d * length;
         free = free && end.x() > 0.5 && end.x() < 1.06 && end.y() > -0.88 && end.y() < -0.12;
         if (!free) continue;
@@ -70,7 +74,8 @@ std::optional<Place> load(const std::string& path) {
   if (!problem.ok()) return std::nullopt;
   Place place;
   place.problem = std::move(*problem);
-  choose_self_pairs(place.problem.robot, place.problem.robot_files.disabled, !place.problem.robot_files.srdf.empty(), 1);
+  choose_self_pairs(place.problem.robot, place.problem.robot_files.disabled, !place.problem.robot_files.srdf.empty(),
+                    1);
   place.kinematics = std::make_shared<ForwardKinematics>(place.problem.robot);
   return place;
 }
@@ -97,14 +102,16 @@ void survey(int scenes, int attempts) {
   Sums sums;
   HashStream hash;
   std::map<std::pair<int, std::size_t>, std::map<int, std::pair<int, int>>> reached;
-  std::map<double, std::pair<int, int>> by_heading; std::map<double,std::map<std::string,int>> heading_causes;
+  std::map<double, std::pair<int, int>> by_heading;
+  std::map<double, std::map<std::string, int>> heading_causes;
   int o_all = 0, o_ok = 0, groups = 0, groups_solved = 0;
   double setup_ms = 0;
   for (const char* folder : {"5", "10", "15"})
     for (int k = 0; k < scenes; ++k) {
       char name[128];
       const int base = std::string(folder) == "5" ? 100000 : std::string(folder) == "10" ? 200000 : 300000;
-      std::snprintf(name, sizeof name, "%s/em4m_scenes/%s/plan_%06d_SCENE.txt", test::shared_data().c_str(), folder, base + 2 * k);
+      std::snprintf(name, sizeof name, "%s/em4m_scenes/%s/plan_%06d_SCENE.txt", test::shared_data().c_str(), folder,
+                    base + 2 * k);
       std::optional<Place> loaded = load(name);
       if (!loaded) continue;
       places().push_back(std::make_unique<Place>(std::move(*loaded)));
@@ -113,7 +120,8 @@ void survey(int scenes, int attempts) {
       place.planner = std::make_unique<PushPlanner>(place.problem, place.kinematics, PushOptions{}, 1);
       setup_ms += 1e3 * (thread_cpu_s() - t0);
       add_requests(place, attempts);
-      bool any = false; std::map<int,int> objects;
+      bool any = false;
+      std::map<int, int> objects;
       for (std::size_t i = 0; i < place.requests.size(); ++i) {
         const PushRequest& request = place.requests[i];
         const double begin = thread_cpu_s();
@@ -121,15 +129,19 @@ void survey(int scenes, int attempts) {
         const double ms = 1e3 * (thread_cpu_s() - begin);
         sums.ms.push_back(ms);
         std::string cause(to_string(out.failure));
-        if (out.violation && out.failure == PushFailure::violation) cause += " " + std::string(to_string(out.violation->kind));
+        if (out.violation && out.failure == PushFailure::violation)
+          cause += " " + std::string(to_string(out.violation->kind));
         ++sums.causes[cause];
         ++sums.attempts;
-        sums.valid += out.valid(); objects[request.object.value] += out.valid();
+        sums.valid += out.valid();
+        objects[request.object.value] += out.valid();
         sums.times.start += out.times.start, sums.times.way += out.times.way, sums.times.approach += out.times.approach;
         sums.times.simulation += out.times.simulation, sums.times.retreat += out.times.retreat;
         const Eigen::Vector2d d = request.path[1] - request.path[0];
         auto& h = by_heading[std::round(100 * std::atan2(d.y(), d.x())) / 100];
-        ++heading_causes[std::abs(std::round(100 * std::atan2(d.y(), d.x())) / 100)][std::string(to_string(out.failure))]; ++h.second, h.first += out.valid();
+        ++heading_causes[std::abs(std::round(100 * std::atan2(d.y(), d.x())) / 100)]
+                        [std::string(to_string(out.failure))];
+        ++h.second, h.first += out.valid();
         hash.add(static_cast<std::int32_t>(out.failure));
         for (const Eigen::VectorXd& q : out.push) hash.add(q[0]);
         if (request.attempt == 0) any = false, ++groups;
@@ -138,14 +150,18 @@ void survey(int scenes, int attempts) {
       for (auto [o, c] : objects) ++o_all, o_ok += c > 0;
     }
   std::printf("objects with a valid push: %d of %d\n", o_ok, o_all);
-  std::printf("signature %s, %d attempts, %.1f %% valid; %d of %d paths valid within %d attempts\n", to_hex(hash.value()).c_str(), sums.attempts,
-              100.0 * sums.valid / std::max(1, sums.attempts), groups_solved, groups, attempts);
-  for (const auto& [cause, count] : sums.causes) std::printf("  %-34s %5d %5.1f %%\n", cause.c_str(), count, 100.0 * count / sums.attempts);
-  std::printf("  ms per attempt: 50%% %.2f  75%% %.2f  90%% %.2f  99%% %.2f; set-up %.1f ms\n", quantile(sums.ms, .5), quantile(sums.ms, .75),
-              quantile(sums.ms, .9), quantile(sums.ms, .99), setup_ms / static_cast<double>(places().size()));
+  std::printf("signature %s, %d attempts, %.1f %% valid; %d of %d paths valid within %d attempts\n",
+              to_hex(hash.value()).c_str(), sums.attempts, 100.0 * sums.valid / std::max(1, sums.attempts),
+              groups_solved, groups, attempts);
+  for (const auto& [cause, count] : sums.causes)
+    std::printf("  %-34s %5d %5.1f %%\n", cause.c_str(), count, 100.0 * count / sums.attempts);
+  std::printf("  ms per attempt: 50%% %.2f  75%% %.2f  90%% %.2f  99%% %.2f; set-up %.1f ms\n", quantile(sums.ms, .5),
+              quantile(sums.ms, .75), quantile(sums.ms, .9), quantile(sums.ms, .99),
+              setup_ms / static_cast<double>(places().size()));
   const double n = sums.attempts;
-  std::printf("  mean ms: start %.2f  way %.2f  approach %.2f  simulation %.2f  retreat %.2f\n", 1e3 * sums.times.start / n, 1e3 * sums.times.way / n,
-              1e3 * sums.times.approach / n, 1e3 * sums.times.simulation / n, 1e3 * sums.times.retreat / n);
+  std::printf("  mean ms: start %.2f  way %.2f  approach %.2f  simulation %.2f  retreat %.2f\n",
+              1e3 * sums.times.start / n, 1e3 * sums.times.way / n, 1e3 * sums.times.approach / n,
+              1e3 * sums.times.simulation / n, 1e3 * sums.times.retreat / n);
   for (const auto& [heading, causes] : heading_causes) {
     std::printf("  |heading| %4.2f:", heading);
     int all = 0;
@@ -154,6 +170,17 @@ void survey(int scenes, int attempts) {
     std::printf("\n");
   }
   for (const auto& [heading, c] : by_heading) std::printf("  heading %5.2f: %d of %d\n", heading, c.first, c.second);
+}
+
+/// Chains of pushes in every scene, replayed by the verifier.
+void replay() {
+  fixtures::Agreement agreement;
+  for (std::size_t i = 0; i < places().size(); ++i)
+    for (std::uint64_t k = 0; k < 3; ++k)
+      if (const Place& p = *places()[i]; !p.requests.empty())
+        agreement.add(p.problem, fixtures::random_chain(p.problem, p.kinematics, p.requests, 3, PushOptions{}, 10 * i + k));
+  agreement.print();
+  for (const std::string& text : agreement.violations) std::printf("  %s\n", text.c_str());
 }
 
 void attempt(benchmark::State& state) {
@@ -172,6 +199,7 @@ BENCHMARK(attempt)->Unit(benchmark::kMillisecond);
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   survey(argc > 1 ? std::atoi(argv[1]) : 3, 3);
+  replay();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

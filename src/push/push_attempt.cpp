@@ -78,6 +78,7 @@ PushOutcome PushAttempt::run() {
     push_first(*std::max_element(short_.begin(), short_.end(), further));
   }
   if (stopped()) out_.failure = PushFailure::stopped;
+  if (out_.failure != PushFailure::violation) out_.violation.reset();
   if (!out_.valid()) out_.approach.clear(), out_.push.clear(), out_.retreat.clear();
   return std::move(out_);
 }
@@ -263,7 +264,6 @@ void PushAttempt::retreat(const Draw& draw) {
   tools_.checker.set_state(request_.state);
   if (out_.retreat.empty()) return failed(PushFailure::no_retreat);
   out_.failure = PushFailure::none;
-  out_.violation.reset();
   done_ = true;
 }
 

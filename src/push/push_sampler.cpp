@@ -14,9 +14,9 @@ constexpr double kFar = 0.12;             // m, the most that a wide draw adds t
 constexpr double kFarShare = 0.3;         // of the wide draws
 constexpr double kSteepShare = 0.4;
 constexpr double kRolledShare = 0.3;
-constexpr double kHeadingNoise = 0.2;     // rad
+constexpr double kHeadingNoise = 0.2;  // rad
 constexpr double kLeastPitch = -10 * kDegree, kMostPitch = 90 * kDegree;
-constexpr double kHeightBelow = 0.01, kHeightAbove = 0.005;     // m around the height asked for
+constexpr double kHeightBelow = 0.01, kHeightAbove = 0.005;       // m around the height asked for
 constexpr double kLeastClearance = 0.004, kMostClearance = 0.01;  // m between gripper and support
 
 Eigen::Vector3d at_height(const Eigen::Vector2d& p, double z) { return {p.x(), p.y(), z}; }
@@ -74,10 +74,10 @@ TipWay PushSampler::sample(const PushRequest& request, Spread spread, RandomStre
   way.X_WT.linear() = orientation(path[0] - behind * d, std::atan2(d.y(), d.x()), spread, random);
   // From its origin to the tip, when the gripper touches the object.
   const double contact = behind + gripper_.reach(way.X_WT.linear(), d_W, half_width);
-  const double floor = request.state.X_WO(request.object).translation().z() -
-                       extent(request, -Eigen::Vector3d::UnitZ());
-  const double lowest = gripper_.reach(way.X_WT.linear(), -Eigen::Vector3d::UnitZ(), 1) +
-                        random.uniform(kLeastClearance, kMostClearance);
+  const double floor =
+      request.state.X_WO(request.object).translation().z() - extent(request, -Eigen::Vector3d::UnitZ());
+  const double lowest =
+      gripper_.reach(way.X_WT.linear(), -Eigen::Vector3d::UnitZ(), 1) + random.uniform(kLeastClearance, kMostClearance);
   const double z = floor + std::max(options_.height + random.uniform(-kHeightBelow, kHeightAbove), lowest);
 
   double standoff = std::max(kLeastStandoff, random.uniform(kLeastStandoff, options_.standoff + options_.noise));

@@ -9,7 +9,7 @@ namespace {
 constexpr double kPositionTolerance = 1e-3;  // m
 constexpr double kDamping = 1e-4;            // m^2
 constexpr double kLargestStep = 0.15;        // rad or m, of a joint in one iteration
-constexpr double kLargestTurn = 0.5;         // rad or m, of a joint from one target to the next: more is another posture
+constexpr double kLargestTurn = 0.5;  // rad or m, of a joint from one target to the next: more is another posture
 constexpr int kIterations = 12;
 
 }  // namespace

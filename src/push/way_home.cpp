@@ -41,8 +41,7 @@ std::vector<Eigen::VectorXd> WayHome::quick(const Eigen::VectorXd& q) {
   const Eigen::Isometry3d X_WT = kinematics_.tip_pose(q);
   const Eigen::Vector2d radial = (p_shoulder_ - X_WT.translation().head<2>()).normalized();
   const Eigen::Vector2d axis = X_WT.linear().col(0).head<2>();
-  const Eigen::Vector3d detours[] = {Eigen::Vector3d::Zero(),
-                                     kDetour * Eigen::Vector3d(-axis.x(), -axis.y(), 0),
+  const Eigen::Vector3d detours[] = {Eigen::Vector3d::Zero(), kDetour * Eigen::Vector3d(-axis.x(), -axis.y(), 0),
                                      kDetour * Eigen::Vector3d(radial.x(), radial.y(), 0),
                                      Eigen::Vector3d(kDetour * radial.x(), kDetour * radial.y(), 0.25 * kDetour)};
   for (const Eigen::Vector3d& detour : detours)
@@ -87,7 +86,8 @@ void WayHome::shorten(std::vector<Eigen::VectorXd>& path) {
     for (; ahead > 1; ahead /= 2)
       if (free(path[i], path[i + ahead])) break;
     if (ahead > 1)
-      path.erase(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, path.begin() + static_cast<std::ptrdiff_t>(i + ahead));
+      path.erase(path.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                 path.begin() + static_cast<std::ptrdiff_t>(i + ahead));
   }
 }
 

@@ -3,10 +3,10 @@
 //
 // Where this differs from the paper: an attempt draws up to `draws` starts and takes the first that passes the cheap
 // tests (the paper draws one); the gripper's heading lies between the push's own and the arm's, its pitch and roll are
-// drawn too, its height is as low as it can be (pushed high, objects tip); the object's own extent along the push counts,
-// not its world-axes box, and so does how far the gripper reaches beyond its tip, so that the tip's way ends where the
-// object has arrived; the way is planned before the approach, which costs more; physics comes before a long approach
-// search; the arm goes back along the push before it goes home, and all of that is simulated in one piece.
+// drawn too, its height is as low as it can be (pushed high, objects tip); the object's own extent along the push
+// counts, not its world-axes box, and so does how far the gripper reaches beyond its tip, so that the tip's way ends
+// where the object has arrived; the way is planned before the approach, which costs more; physics comes before a long
+// approach search; the arm goes back along the push before it goes home, and all of that is simulated in one piece.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,10 +27,10 @@
 namespace mamo {
 
 struct PushOptions {
-  double standoff = 0.05;  // m between the object's boundary and the gripper at the start of a push, typically
-  double noise = 0.025;    // m, standard deviation of start and waypoints across the push; added to most standoffs
-  double height = 0.03;    // m of the tip above the support; higher where the gripper would touch it
-  double pitch_deg = 30;   // of the tip, nose down: most of the common draws; the wide ones go to 90
+  double standoff = 0.05;   // m between the object's boundary and the gripper at the start of a push, typically
+  double noise = 0.025;     // m, standard deviation of start and waypoints across the push; added to most standoffs
+  double height = 0.03;     // m of the tip above the support; higher where the gripper would touch it
+  double pitch_deg = 30;    // of the tip, nose down: most of the common draws; the wide ones go to 90
   double overshoot = 0.01;  // m pushed beyond the path's end
   bool straight = false;    // one segment from first to last point (published code) instead of the shortcut path
   double least_displacement = 0.01;  // m, of some object: less is no push
@@ -82,10 +82,10 @@ struct PushOutcome {
   std::vector<Eigen::VectorXd> push;           // begins where the approach ends; there and back
   std::vector<Eigen::VectorXd> retreat;        // begins where the push ends, back to q_start
   WorldState after;                            // objects after the retreat, quantised
-  std::vector<ObjectId> moved;          // objects whose pose differs from the request's state by more than noise
-  std::optional<Violation> violation;   // of failure `violation`
-  double settle_s = 0;                  // waited at the end of `push`, before the retreat
-  double share = 1;                     // of the path; below 1 the push ends early
+  std::vector<ObjectId> moved;                 // objects whose pose differs from the request's state by more than noise
+  std::optional<Violation> violation;          // of failure `violation`
+  double settle_s = 0;                         // waited at the end of `push`, before the retreat
+  double share = 1;                            // of the path; below 1 the push ends early
   int simulations = 0;
   std::int64_t collision_checks = 0;
   double simulation_s = 0;  // thread CPU time in the simulator

@@ -1,0 +1,32 @@
+// The continuous replay of several pushes ends where planning said, push by push.
+#include <gtest/gtest.h>
+
+#include "support/push_chain.hpp"
+#include "support/push_problem.hpp"
+
+namespace mamo {
+namespace {
+
+using namespace fixtures;
+
+constexpr std::uint64_t kSeed = 11;
+
+TEST(ReplayAgreement, ObjectsEndWherePlanningSaid) {
+  Agreement agreement;
+  for (std::uint64_t scene = 1; scene <= 8; ++scene) {
+    const Problem problem = push_problem(cluttered_shelf(8, 3, scene));
+    const auto kinematics = std::make_shared<ForwardKinematics>(problem.robot);
+    agreement.add(problem, random_chain(problem, kinematics, push_requests(problem), 4, {}, kSeed + scene));
+  }
+  agreement.print();
+  for (const std::string& text : agreement.violations) std::puts(text.c_str());
+  ASSERT_GE(agreement.chains, 5);
+  ASSERT_GE(agreement.later_mm.size(), 10u);
+  EXPECT_LT(Agreement::quantile(agreement.first_mm, 0.9), 1) << "seed " << kSeed;
+  EXPECT_LT(Agreement::quantile(agreement.later_mm, 0.5), 1) << "seed " << kSeed;
+  EXPECT_LT(Agreement::quantile(agreement.later_mm, 0.9), 5) << "seed " << kSeed;
+  EXPECT_LE(static_cast<int>(agreement.violations.size()), agreement.chains / 8) << "seed " << kSeed;
+}
+
+}  // namespace
+}  // namespace mamo
