@@ -161,7 +161,7 @@ Camera Stage::camera() const {
   const Eigen::Vector2d to_robot = (problem().robot.X_WB.translation() - camera.target).head<2>();
   const Eigen::Vector2d tip = (kinematics_.tip_pose(problem().q_start).translation() - camera.target).head<2>();
   const double side = to_robot.x() * tip.y() - to_robot.y() * tip.x();
-  camera.yaw = std::atan2(to_robot.y(), to_robot.x()) + (side > 0 ? -1 : 1) * 1.05;
+  camera.yaw = std::atan2(to_robot.y(), to_robot.x()) + (side > 0 ? -1 : 1) * 1.25;
   camera.pitch = 0.62;
   return camera;
 }

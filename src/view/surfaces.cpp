@@ -14,7 +14,7 @@ namespace {
 constexpr int kSides = 72;           // of round shapes
 constexpr double kTube = 0.0035;     // m, radius of a path
 constexpr double kFailure = 0.05;    // m, radius of the ring where a plan failed
-constexpr float kWall = 0.14f;       // opacity of what is seen through
+constexpr float kWall = 0.10f;       // opacity of what is seen through
 constexpr double kFloorReach = 3.2;  // m
 
 class Collector {

@@ -48,10 +48,7 @@ class Bodies {
   }
 
   paint() {
-    for (const {material, colour} of this.materials) {
-      material.color.set(Theme.colour(colour));
-      material.color.convertSRGBToLinear();
-    }
+    for (const {material, colour} of this.materials) Theme.paint(material, colour);
     this.stage.invalidate();
   }
 
@@ -111,8 +108,8 @@ class Bodies {
   /** Either what the robot looks like or what collides. */
   showCollision(on) {
     for (const mesh of this.collisionShapes) mesh.visible = on;
-    if (this.hasVisuals)
-      for (const mesh of this.visualShapes) mesh.visible = !on || !mesh.parent.children.some((m) => this.collisionShapes.includes(m));
+    const replaced = new Set(this.collisionShapes.map((mesh) => mesh.parent));
+    for (const mesh of this.visualShapes) mesh.visible = !on || !replaced.has(mesh.parent);
     this.stage.invalidate();
   }
 
@@ -140,12 +137,14 @@ class Bodies {
   addObject(object, id) {
     const node = placed(new THREE.Group(), object.X);
     const wall = object.seeThrough;
-    const material = this.material(object.role, wall ? {transparent: true, opacity: 0.16, depthWrite: false} : {});
+    const material = this.material(object.role, wall ? {transparent: true, opacity: 0.12, depthWrite: false} : {});
     for (const shape of object.shapes) {
       const mesh = this.shape(node, shape, material, object.id);
       mesh.userData.object = id;
       if (wall) mesh.renderOrder = 2;
-      this.outline(node, shape, wall ? "fixture" : object.relevant ? "relevant" : "ink", wall ? 0.7 : object.relevant ? 0.9 : 0.22);
+      if (wall) this.outline(node, shape, "fixture", 0.7);
+      else if (object.relevant) this.outline(node, shape, "relevant", 0.9);
+      else this.outline(node, shape, "ink", 0.22);
     }
     this.stage.scene.add(node);
     return node;

@@ -20,7 +20,7 @@ class Contacts {
     const place = data.outcome.findings.find((finding) => finding.p);
     if (place) this.markFailure(place);
     const paint = () => this.group.traverse((node) => {
-      if (node.material) node.material.color.set(Theme.colour(node.userData.colour));
+      if (node.material) Theme.paint(node.material, node.userData.colour);
     });
     Theme.listeners.push(paint);
     paint();
@@ -68,7 +68,7 @@ class Contacts {
       const since = time - contact.from, left = contact.to + kAfterglow - time;
       sprite.visible = since >= -1e-4 && left > 0;
       if (!sprite.visible) return;
-      const size = 0.035 + 0.075 * Math.exp(-Math.max(0, since) * 6);  // a flash, then an ember
+      const size = 0.05 + 0.12 * Math.exp(-Math.max(0, since) * 6);  // a flash, then an ember
       sprite.scale.set(size, size, 1);
       sprite.material.opacity = Math.min(1, left / kAfterglow) * 0.9;
     });

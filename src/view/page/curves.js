@@ -8,8 +8,8 @@ class Curves {
     this.element = element;
     this.replay = replay;
     this.duration = Math.max(replay.duration, 1e-6);
-    this.heads = [];
     this.values = [];
+    this.told = 0;
     for (const [id, track] of replay.tracks) {
       const object = data.objects[id];
       if (object.kind === "fixture") continue;
@@ -18,6 +18,13 @@ class Curves {
       this.addRow(object, "tilt", track.tilt, object.maxTilt, 180 / Math.PI, "°", 5);
       this.addRow(object, "speed", track.speed, object.maxSpeed, 1, " m/s", 0.1);
     }
+    this.head = document.createElement("div");  // one line over all rows: moving it redraws no curve
+    this.head.className = "head";
+    const rows = document.createElement("div");
+    rows.className = "heads";
+    rows.append(this.head);
+    element.append(rows);
+    rows.hidden = !this.values.length;
     element.addEventListener("pointerdown", (event) => {
       const plot = event.target.closest("svg");
       if (!plot) return;
@@ -37,11 +44,10 @@ class Curves {
     const title = what === "tilt" ? `<b></b> tilt` : `<b></b> speed`;
     row.innerHTML = `<span class="name"><i style="background:var(--${object.role})"></i>${title}</span>` +
         `<svg viewBox="0 0 ${kCurveWidth} ${kCurveHeight}" preserveAspectRatio="none">${this.plot(values, factor, scale, bound)}</svg>` +
-        `<span class="now"></span><span class="most soft">most ${most.toFixed(digits)}${unit}` +
+        `<span class="now"></span><span class="most soft">most ${most.toFixed(digits)}` +
         `${bound === null ? ", no limit" : ` of ${bound.toFixed(digits)}${unit}`}</span>`;
     row.querySelector("b").textContent = object.id;
     this.element.append(row);
-    this.heads.push(row.querySelector(".head"));
     this.values.push({cell: row.querySelector(".now"), values, factor, unit, digits});
   }
 
@@ -59,12 +65,14 @@ class Curves {
     const limit = bound !== null && bound <= scale
         ? `<path class="limit" d="M0,${y(bound)}H${kCurveWidth}"/>` : "";
     const area = line ? `<path class="area" d="${line}V${kCurveHeight}H0Z"/><path class="line" d="${line}"/>` : "";
-    return area + limit + `<path class="head" d="M0,0V${kCurveHeight}"/>`;
+    return area + limit;
   }
 
-  show(time) {
-    const x = time / this.duration * kCurveWidth;
-    for (const head of this.heads) head.setAttribute("transform", `translate(${x.toFixed(1)},0)`);
+  show(time, playing) {
+    this.head.style.transform = `translateX(${(100 * time / this.duration).toFixed(3)}%)`;
+    const now = performance.now();
+    if (playing && now - this.told < 100) return;  // numbers that change faster cannot be read
+    this.told = now;
     const sample = this.replay.sample(time);
     for (const {cell, values, factor, unit, digits} of this.values)
       cell.textContent = (Replay.at(values, sample) * factor).toFixed(digits) + unit;

@@ -39,8 +39,14 @@ class Layers {
   }
 
   painted(layer, material, colour) {
-    layer.paint.push(() => material.color.set(Theme.colour(colour)));
+    layer.paint.push(() => Theme.paint(material, colour));
     return material;
+  }
+
+  /** What the planner noted is seen through bodies: its marks lie inside them. */
+  line(layer, colour) {
+    const through = !["tip path", "motion of objects"].includes(layer.name);
+    return this.painted(layer, new THREE.MeshBasicMaterial({depthTest: !through, transparent: through}), colour);
   }
 
   addItem(layer, item) {
@@ -52,15 +58,15 @@ class Layers {
       const curve = new THREE.CurvePath();
       for (let i = 1; i < points.length; ++i) curve.add(new THREE.LineCurve3(points[i - 1], points[i]));
       const pieces = Math.min(600, Math.max(8, points.length * 2));
-      const tube = new THREE.Mesh(new THREE.TubeBufferGeometry(curve, pieces, 0.0028, 5),
-                                  this.painted(layer, new THREE.MeshBasicMaterial(), colour));
+      const tube = new THREE.Mesh(new THREE.TubeBufferGeometry(curve, pieces, 0.0028, 5), this.line(layer, colour));
+      tube.renderOrder = 5;
       tube.userData.name = name;
       layer.group.add(tube);
     }
     if (points.length === 0 || layer.name === "tip path") return;
     const radius = points.length > 1 ? 0.006 : 0.011;
-    const mark = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 16, 10),
-                                this.painted(layer, new THREE.MeshBasicMaterial(), colour));
+    const mark = new THREE.Mesh(new THREE.SphereBufferGeometry(radius, 16, 10), this.line(layer, colour));
+    mark.renderOrder = 5;
     mark.position.copy(points[points.length - 1]);
     mark.userData.name = name;
     layer.group.add(mark);

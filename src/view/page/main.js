@@ -115,7 +115,7 @@ class Player {
     if (!this.moves) return;
     if (on && this.time >= this.replay.duration - 1e-3) this.seek(0);
     this.playing = on;
-    this.playButton.textContent = on ? "❚❚" : "▶";
+    this.playButton.classList.toggle("on", on);
     this.playButton.setAttribute("aria-label", on ? "pause" : "play");
     this.stage.invalidate();
   }
@@ -142,7 +142,7 @@ class Player {
     this.time = Math.min(this.replay.duration, Math.max(0, time));
     this.bodies.apply(this.replay, this.time);
     this.timeline.show(this.time);
-    this.curves.show(this.time);
+    this.curves.show(this.time, this.playing);
     this.clock.textContent = `${this.time.toFixed(1)} / ${this.replay.duration.toFixed(1)} s`;
   }
 

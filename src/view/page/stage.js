@@ -2,21 +2,23 @@
 "use strict";
 
 THREE.Object3D.DefaultUp.set(0, 0, 1);
+const kFloorReach = 3.2, kFloorTile = 0.2;  // m
 
 class Stage {
   constructor(canvas, camera) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true});
+    const software = Stage.drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !software});
     this.renderer.gammaOutput = true;
     this.renderer.gammaFactor = 2.2;
-    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.enabled = !software;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(camera.fov * 180 / Math.PI, 1, 0.02, 60);
     this.orbit = new Orbit(canvas, camera, () => this.invalidate());
     this.beforeDraw = [];
     this.needsDraw = true;
-    this.ratio = Math.min(2, window.devicePixelRatio || 1);
+    this.ratio = Math.min(software ? 1 : 2, window.devicePixelRatio || 1);
     this.slowFrames = 0;
     this.addLight(camera);
     this.addFloor(camera);
@@ -24,6 +26,15 @@ class Stage {
     Theme.listeners.push(() => this.paint());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
+  }
+
+  /** Without graphics hardware smooth edges and shadows cost more than they show. */
+  static drawsInSoftware() {
+    const probe = document.createElement("canvas").getContext("webgl");
+    const info = probe && probe.getExtension("WEBGL_debug_renderer_info");
+    const name = info ? probe.getParameter(info.UNMASKED_RENDERER_WEBGL) : "";
+    if (probe) probe.getExtension("WEBGL_lose_context").loseContext();
+    return /swiftshader|llvmpipe|software|basic render/i.test(name);
   }
 
   invalidate() { this.needsDraw = true; }
@@ -45,23 +56,44 @@ class Stage {
   }
 
   addFloor(view) {
-    const [x, y] = view.target;
-    const material = new THREE.MeshBasicMaterial();
-    this.floor = new THREE.Mesh(new THREE.CircleBufferGeometry(3.2, 64), material);
-    this.floor.position.set(x, y, -0.002);
-    this.grid = new THREE.GridHelper(6, 30);
-    this.grid.rotation.x = Math.PI / 2;
-    this.grid.position.set(Math.round(x / 0.2) * 0.2, Math.round(y / 0.2) * 0.2, 0);
-    this.grid.material.transparent = true;
-    this.grid.material.opacity = 0.28;
-    this.scene.add(this.floor, this.grid);
+    this.floorCanvas = document.createElement("canvas");
+    this.floorCanvas.width = this.floorCanvas.height = 2048;
+    const map = new THREE.CanvasTexture(this.floorCanvas);
+    map.encoding = THREE.sRGBEncoding;
+    map.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
+    const material = new THREE.MeshLambertMaterial({map, transparent: true});
+    this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * kFloorReach, 2 * kFloorReach), material);
+    const snap = (v) => Math.round(v / kFloorTile) * kFloorTile;
+    this.floor.position.set(snap(view.target[0]), snap(view.target[1]), -0.002);
+    this.floor.receiveShadow = true;
+    this.floor.renderOrder = -1;
+    this.scene.add(this.floor);
+  }
+
+  /** Tiles that fade away with distance. */
+  paintFloor() {
+    const size = this.floorCanvas.width, pen = this.floorCanvas.getContext("2d");
+    pen.globalCompositeOperation = "source-over";
+    pen.fillStyle = Theme.colour("floor");
+    pen.fillRect(0, 0, size, size);
+    pen.fillStyle = Theme.colour("tile");
+    const step = size * kFloorTile / (2 * kFloorReach);
+    for (let at = 0; at <= size; at += step) {
+      pen.fillRect(at - 1, 0, 2, size);
+      pen.fillRect(0, at - 1, size, 2);
+    }
+    const fade = pen.createRadialGradient(size / 2, size / 2, size * 0.2, size / 2, size / 2, size * 0.5);
+    fade.addColorStop(0, "rgba(0,0,0,1)");
+    fade.addColorStop(1, "rgba(0,0,0,0)");
+    pen.globalCompositeOperation = "destination-in";
+    pen.fillStyle = fade;
+    pen.fillRect(0, 0, size, size);
+    this.floor.material.map.needsUpdate = true;
   }
 
   paint() {
-    const dark = Theme.dark();
     this.scene.background = new THREE.Color(Theme.colour("sky"));
-    this.floor.material.color.set(Theme.colour("floor"));
-    this.grid.material.opacity = dark ? 0.16 : 0.28;
+    this.paintFloor();
     this.invalidate();
   }
 

@@ -12,6 +12,10 @@ const Theme = {
     Theme.changed();
   },
   changed() { for (const listener of Theme.listeners) listener(); },
+  /** Gives a three.js material a palette colour; lights and blending work on linear colours. */
+  paint(material, name) {
+    material.color.set(Theme.colour(name)).convertSRGBToLinear();
+  },
   /** Value of a CSS colour variable, as "#rrggbb". */
   colour(name) { return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim(); },
 };

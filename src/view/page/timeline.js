@@ -15,6 +15,7 @@ class Timeline {
       mark.title = finding.text;
     }
     this.head = this.add("playhead", 0);
+    this.head.style.left = "0";
     element.addEventListener("pointerdown", (event) => {
       element.setPointerCapture(event.pointerId);
       this.scrub(event);
@@ -63,7 +64,7 @@ class Timeline {
   }
 
   show(time) {
-    this.head.style.left = this.percent(time) + "%";
+    this.head.style.transform = `translateX(${this.percent(time).toFixed(3)}%)`;
     this.element.setAttribute("aria-valuenow", time.toFixed(2));
   }
 }
