@@ -4,7 +4,7 @@
 #include "view/page_data.hpp"
 #include "view/page_template.hpp"
 #include "view/stage.hpp"
-#include "view/svg.hpp"
+#include "mamo/view/svg.hpp"
 
 namespace mamo::view {
 

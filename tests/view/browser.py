@@ -50,7 +50,10 @@ class Browser:
             self.process.wait()
         os.close(self.write_end)
         os.close(self.read_end)
-        shutil.rmtree(self.folder.name, ignore_errors=True)
+        try:
+            self.folder.cleanup()
+        except OSError:  # a late write of the browser
+            shutil.rmtree(self.folder.name, ignore_errors=True)
 
     def _receive(self, timeout):
         deadline = time.monotonic() + timeout

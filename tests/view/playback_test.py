@@ -109,6 +109,11 @@ class Playback(unittest.TestCase):
         page = self.made(problem, plan)
         self.assertEqual(self.value("document.getElementById('badge').textContent"), "holds in full physics")
         self.play_and_scrub()
+        for theme in ("light", "dark"):
+            self.chromium.theme(theme)
+            self.value("player.seek(player.replay.contacts[0].from + 0.1)")
+            self.shot("tabletop-" + theme)
+        self.chromium.theme("light")
         names = self.toggle_every_layer()
         self.assertEqual(set(names), {"tip path", "motion of objects", "swept volume", "relevant objects", "failed motions", "heuristic"})
         # The replay of the page is that of the verification: where the plan says the objects are at the end.
@@ -120,11 +125,6 @@ class Playback(unittest.TestCase):
                 self.assertAlmostEqual(a, b, delta=1e-4, msg=name)
         self.assertGreater(self.value("player.replay.contacts.length"), 0)
         self.assertGreater(self.value("document.querySelectorAll('.curve').length"), 1)
-        for theme in ("light", "dark"):
-            self.chromium.theme(theme)
-            self.value("player.seek(player.replay.contacts[0].from + 0.1)")
-            self.shot("tabletop-" + theme)
-        self.chromium.theme("light")
         self.assert_clean(page)
 
     def test_names_appear_under_the_pointer(self):
@@ -144,11 +144,11 @@ class Playback(unittest.TestCase):
                          self.value("document.getElementById('reason').textContent"))
         self.assertEqual(self.value("player.data.segments.map((s) => s.kind)"), ["approach", "grasp", "extract"])
         self.play_and_scrub()
+        self.value("player.seek(0.75 * player.replay.duration)")
+        self.shot("shelf")
         self.toggle_every_layer()
         moved = self.value("(player.seek(1e9), player.bodies.objects[player.data.objects.findIndex((o) => o.role === 'target')].position.toArray())")
         self.assertGreater(moved[2], 0.9, "the object of interest was not lifted")
-        self.value("player.seek(0.75 * player.replay.duration)")
-        self.shot("shelf")
         self.assert_clean(page)
 
     def test_a_plan_that_does_not_hold_says_why_and_where(self):
@@ -208,8 +208,8 @@ class Playback(unittest.TestCase):
         rate = (self.value("player.frames") - before) / (time.monotonic() - start)
         details = self.value("`pixel ratio ${player.stage.ratio}, shadows ${player.stage.renderer.shadowMap.enabled}, ${player.stage.renderer.info.render.triangles} triangles, status ${player.data.outcome.kind}`")
         print(f"20 objects: {size} bytes, {rate:.0f} frames/s drawn in software ({details})")
-        if self.value("player.moves"):
-            self.assertGreater(rate, 3)
+        self.assertTrue(self.value("player.moves"))
+        self.assertGreater(rate, 1, "measured on a machine that may be busy: only a page that stands still fails")
         self.assert_clean(page)
 
 

@@ -7,18 +7,18 @@ const kFloorReach = 3.2, kFloorTile = 0.2;  // m
 class Stage {
   constructor(canvas, camera) {
     this.canvas = canvas;
-    const software = Stage.drawsInSoftware();
-    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !software});
+    this.software = Stage.drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: !this.software});
     this.renderer.gammaOutput = true;
     this.renderer.gammaFactor = 2.2;
-    this.renderer.shadowMap.enabled = !software;
+    this.renderer.shadowMap.enabled = !this.software;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(camera.fov * 180 / Math.PI, 1, 0.02, 60);
     this.orbit = new Orbit(canvas, camera, () => this.invalidate());
     this.beforeDraw = [];
     this.needsDraw = true;
-    this.ratio = Math.min(software ? 1 : 2, window.devicePixelRatio || 1);
+    this.ratio = Math.min(this.software ? 1 : 2, window.devicePixelRatio || 1);
     this.slowFrames = 0;
     this.addLight(camera);
     this.addFloor(camera);
@@ -60,8 +60,9 @@ class Stage {
     this.floorCanvas.width = this.floorCanvas.height = 2048;
     const map = new THREE.CanvasTexture(this.floorCanvas);
     map.encoding = THREE.sRGBEncoding;
-    map.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
-    const material = new THREE.MeshLambertMaterial({map, transparent: true});
+    if (!this.software) map.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
+    const Material = this.software ? THREE.MeshBasicMaterial : THREE.MeshLambertMaterial;
+    const material = new Material({map, transparent: true});
     this.floor = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * kFloorReach, 2 * kFloorReach), material);
     const snap = (v) => Math.round(v / kFloorTile) * kFloorTile;
     this.floor.position.set(snap(view.target[0]), snap(view.target[1]), -0.002);

@@ -6,7 +6,8 @@ class Timeline {
     this.element = element;
     this.duration = Math.max(replay.duration, 1e-6);
     this.seek = seek;
-    for (const segment of data.segments) this.addSegment(segment);
+    // A plan that failed ends before its segments do.
+    for (const segment of data.segments) if (segment.from < this.duration) this.addSegment(segment);
     const rest = data.segments.length ? data.segments[data.segments.length - 1].to : 0;
     if (replay.duration - rest > 0.02) this.addBlock("settle", rest, replay.duration, "settling", "until everything rests");
     for (const contact of replay.contacts) this.addTick(contact, data);
@@ -37,7 +38,7 @@ class Timeline {
 
   addBlock(kind, from, to, text, title) {
     const block = this.add("segment " + kind, from);
-    block.style.width = this.percent(to - from) + "%";
+    block.style.width = this.percent(to) - this.percent(from) + "%";
     block.title = title;
     const label = document.createElement("span");
     label.textContent = text;
