@@ -5,8 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mamo/view/svg.hpp"
+
 namespace mamo {
 namespace {
+
+using view::escaped;
+using view::px;
 
 // px
 constexpr double kWidth = 640, kHeight = 400, kLeft = 62, kRight = 18, kTop = 40, kBottom = 52;
@@ -18,11 +23,13 @@ constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73"
 // Lines that lie on one another stay visible.
 constexpr std::array<const char*, 3> kDashes = {"", "\" stroke-dasharray=\"8 4", "\" stroke-dasharray=\"2 4"};
 
-std::string px(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", value + 0.0);
-  return text;
-}
+// Alone it follows the system; inside a page, the page's own colours.
+constexpr const char* kStyle =
+    ".chart{font:13px system-ui,sans-serif}.chart .title{font-weight:600}.chart .hollow{stroke-width:2}"
+    ".chart .paper,.chart .hollow{fill:var(--paper,#fff)}.chart text{fill:var(--ink,#222)}"
+    ".chart .grid{stroke:var(--line,#ccc)}.chart .axis{stroke:var(--ink,#222)}.chart .line{fill:none;stroke-width:2}"
+    "@media(prefers-color-scheme:dark){.chart .paper,.chart .hollow{fill:var(--paper,#14181d)}"
+    ".chart text{fill:var(--ink,#ddd)}.chart .grid{stroke:var(--line,#444)}.chart .axis{stroke:var(--ink,#ddd)}}";
 
 std::string label(double value) {
   char text[32];
@@ -75,13 +82,9 @@ class Drawing {
   std::string svg() {
     const double height = kHeight + kLegendRow * static_cast<double>(chart_.series.size());
     text_ = "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
-            "\" role=\"img\" aria-label=\"" + escape_markup(chart_.title) + "\">\n" +
-            "<style>.chart{font:13px sans-serif}.chart .paper,.chart .hollow{fill:#fff}.chart text{fill:#222}"
-            ".chart .grid{stroke:#ccc}.chart .axis{stroke:#222}.chart .line{fill:none;stroke-width:2}"
-            ".chart .hollow{stroke-width:2}@media(prefers-color-scheme:dark){.chart .paper,.chart .hollow{fill:#16181c}"
-            ".chart text{fill:#ddd}.chart .grid{stroke:#444}.chart .axis{stroke:#ddd}}</style>\n"
-            "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
-    text_at(kLeft, 22, chart_.title, "start", " font-weight=\"bold\"");
+            "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n" +
+            "<style>" + kStyle + "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
+    text_at(kLeft, 22, chart_.title, "start", "title");
     axes();
     for (std::size_t i = 0; i < chart_.series.size(); ++i) draw(chart_.series[i], i);
     return text_ + "</svg>\n";
@@ -91,13 +94,11 @@ class Drawing {
   double at_x(double x) const { return kLeft + axis_.share(x) * (kWidth - kLeft - kRight); }
   double at_y(double y) const { return kHeight - kBottom - y / chart_.y_max * (kHeight - kTop - kBottom); }
 
-  void text_at(double x, double y, const std::string& text, const char* anchor, const std::string& more = "") {
-    text_ += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" text-anchor=\"" + anchor + "\"" + more + ">" +
-             escape_markup(text) + "</text>\n";
+  void text_at(double x, double y, const std::string& text, const char* anchor, const char* css = "label") {
+    text_ += view::text_element(css, {x, y}, text, anchor);
   }
   void line(const char* css, double x1, double y1, double x2, double y2) {
-    text_ += std::string("<line class=\"") + css + "\" x1=\"" + px(x1) + "\" y1=\"" + px(y1) + "\" x2=\"" + px(x2) +
-             "\" y2=\"" + px(y2) + "\"/>\n";
+    text_ += view::line_element(css, {x1, y1}, {x2, y2});
   }
 
   void axes() {
@@ -114,12 +115,14 @@ class Drawing {
     line("axis", kLeft, bottom, kWidth - kRight, bottom);
     line("axis", kLeft, kTop, kLeft, bottom);
     text_at((kLeft + kWidth - kRight) / 2, bottom + 40, chart_.x_label, "middle");
-    text_at(0, 0, chart_.y_label, "middle", " transform=\"translate(16," + px((kTop + bottom) / 2) + ") rotate(-90)\"");
+    text_ += "<g transform=\"translate(16," + px((kTop + bottom) / 2) + ") rotate(-90)\">";
+    text_at(0, 0, chart_.y_label, "middle");
+    text_ += "</g>\n";
   }
 
   void mark(double x, double y, const std::string& colour, bool hollow, const std::string& tooltip) {
     text_ += std::string("<circle") + (hollow ? " class=\"hollow\" stroke=\"" : " fill=\"") + colour + "\" cx=\"" +
-             px(x) + "\" cy=\"" + px(y) + "\" r=\"" + (hollow ? "6" : "4") + "\"><title>" + escape_markup(tooltip) +
+             px(x) + "\" cy=\"" + px(y) + "\" r=\"" + (hollow ? "6" : "4") + "\"><title>" + escaped(tooltip) +
              "</title></circle>\n";
   }
 
@@ -153,22 +156,5 @@ class Drawing {
 }  // namespace
 
 std::string to_svg(const Chart& chart) { return Drawing(chart).svg(); }
-
-std::string escape_markup(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
-  }
-  return out;
-}
 
 }  // namespace mamo

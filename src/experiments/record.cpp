@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <cmath>
 
+#include "mamo/common/hash.hpp"
 #include "mamo/io/load.hpp"
 #include "mamo/io/result_json.hpp"
 
@@ -134,6 +136,14 @@ Result<std::vector<Record>> read_records(const std::string& path) {
     start = end + 1;
   }
   return records;
+}
+
+std::string page_file_name(const std::string& run) {
+  std::string name;
+  for (char c : run) name += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' ? c : '_';
+  HashStream hash;  // names that differ in other characters stay apart
+  for (char c : run) hash.add(static_cast<std::int64_t>(c));
+  return name + "-" + to_hex(hash.value()).substr(0, 8) + ".html";
 }
 
 }  // namespace mamo

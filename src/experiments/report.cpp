@@ -112,6 +112,24 @@ Table unsolved_table(const SuiteRecords& suite) {
   return table;
 }
 
+Table runs_table(const SuiteRecords& suite, const std::function<std::string(const Record&)>& page_of) {
+  Table table;
+  table.name = suite.name + "-runs";
+  table.title = suite.name + ": every run";
+  table.caption = "A problem's name leads to the playback of its plan where a page was made (mamo bench --pages).";
+  table.every_run = true;
+  table.header = {"problem",     "setting",    "planner",    "seed",     "status", "time (s)",
+                  "simulations", "expansions", "iterations", "relevant", "reason"};
+  for (const Group& group : suite.groups)
+    for (const Record* r : group.runs) {
+      table.rows.push_back({r->problem, group.setting, group.label, std::to_string(r->seed), r->status,
+                            number("%.3f", r->time_s), std::to_string(r->simulations), std::to_string(r->expansions),
+                            std::to_string(r->iterations), std::to_string(r->relevant), r->reason});
+      table.links.push_back(page_of ? page_of(*r) : "");
+    }
+  return table;
+}
+
 /// Each value once, in order, with how many runs had it.
 template <class Get>
 std::string tally(const SuiteRecords& suite, const Get& get) {
@@ -196,12 +214,13 @@ void order_labels(SuiteRecords& suite) {
   });
 }
 
-Report make_report(std::vector<Record> records) {
+Report make_report(std::vector<Record> records, const std::function<std::string(const Record&)>& page_of) {
   Report report;
   report.title = "Planning among movable objects: experiments";
   for (const SuiteRecords& suite : by_suite(records)) {
     add_facts(suite, report);
-    for (Table table : {results_table(suite), comparison_table(suite), unsolved_table(suite)})
+    for (Table table :
+         {results_table(suite), comparison_table(suite), unsolved_table(suite), runs_table(suite, page_of)})
       if (!table.rows.empty()) report.tables.push_back(std::move(table));
     for (Chart& chart : charts_of(suite)) report.charts.push_back(std::move(chart));
   }

@@ -57,7 +57,8 @@ Chart success_chart(const SuiteRecords& suite, const std::function<int(const Rec
   const auto lines = lines_of(suite);
   Chart chart;
   chart.y_label = "solved (share of all)";
-  chart.caption = caption_of(lines);
+  chart.caption = "Higher is better: of all problems of a setting, the share with a plan that an independent replay "
+                  "confirmed. " + caption_of(lines);
   for (const auto& [name, runs] : lines) {
     std::map<int, Runs> at;
     for (const Record* r : runs) at[x(*r)].push_back(r);
@@ -143,8 +144,8 @@ std::vector<Chart> charts_of(const SuiteRecords& suite) {
   budget.title = "Success against the simulation budget";
   budget.x_label = "simulations that the search may use (--max-simulations)";
   budget.caption =
-      "A run under a budget is the beginning of the same run without one: a problem is solved within every budget from "
-      "the "
+      "Further left and higher is better: at a budget, the curve is the share of all problems solved within it. A run "
+      "under a budget is the beginning of the same run without one: a problem is solved within every budget from the "
       "simulations it used on. Time limits cut the curves off as everywhere. " +
       caption_of(lines_of(suite));
   charts.push_back(std::move(budget));
@@ -153,7 +154,8 @@ std::vector<Chart> charts_of(const SuiteRecords& suite) {
   cactus.name = suite.name + "-cactus";
   cactus.title = "Share solved within a time";
   cactus.x_label = "planning and verification (s)";
-  cactus.caption = caption_of(lines_of(suite));
+  cactus.caption = "Further left and higher is better: at a time, the curve is the share of all problems solved by then; "
+                   "where it ends, the time limit had come. " + caption_of(lines_of(suite));
   charts.push_back(std::move(cactus));
   return charts;
 }

@@ -1,7 +1,11 @@
 #include "mamo/experiments/report.hpp"
+#include "mamo/view/page.hpp"
+#include "mamo/view/svg.hpp"
 
 namespace mamo {
 namespace {
+
+using view::escaped;
 
 std::string cell(const std::string& text) {
   std::string out;
@@ -15,27 +19,27 @@ std::string markdown_row(const std::vector<std::string>& cells) {
   return text + "\n";
 }
 
-std::string html_row(const std::vector<std::string>& cells, const char* tag) {
+/// link: of the first cell; empty for none.
+std::string html_row(const std::vector<std::string>& cells, const char* tag, const std::string& link = "") {
   std::string text = "<tr>";
-  for (const std::string& c : cells) text += std::string("<") + tag + ">" + escape_markup(c) + "</" + tag + ">";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::string cell = escaped(cells[i]);
+    if (i == 0 && !link.empty()) cell = "<a href=\"" + escaped(link) + "\">" + cell + "</a>";
+    text += std::string("<") + tag + ">" + cell + "</" + tag + ">";
+  }
   return text + "</tr>\n";
 }
 
 std::string html_table(const Table& table) {
-  std::string text = "<h2>" + escape_markup(table.title) + "</h2>\n";
-  if (!table.caption.empty()) text += "<p>" + escape_markup(table.caption) + "</p>\n";
-  text += "<div class=\"wide\"><table><thead>" + html_row(table.header, "th") + "</thead><tbody>\n";
-  for (const auto& row : table.rows) text += html_row(row, "td");
-  return text + "</tbody></table></div>\n";
+  std::string text = "<h2 id=\"" + escaped(table.name) + "\">" + escaped(table.title) + "</h2>\n";
+  if (!table.caption.empty()) text += "<p>" + escaped(table.caption) + "</p>\n";
+  if (table.every_run) text += "<details><summary>" + std::to_string(table.rows.size()) + " runs</summary>\n";
+  text += "<div class=\"wide\"><table class=\"data\"><thead>" + html_row(table.header, "th") + "</thead><tbody>\n";
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    text += html_row(table.rows[i], "td", i < table.links.size() ? table.links[i] : "");
+  text += "</tbody></table></div>\n";
+  return text + (table.every_run ? "</details>\n" : "");
 }
-
-constexpr const char* kStyle =
-    ":root{color-scheme:light dark;--ink:#222;--paper:#fff;--faint:#ddd}"
-    "@media(prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#16181c;--faint:#3a3d44}}"
-    "body{font:16px/1.5 sans-serif;color:var(--ink);background:var(--paper);max-width:70rem;margin:2rem auto;"
-    "padding:0 1rem}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}"
-    "th,td{padding:.25rem .5rem;border-bottom:1px solid var(--faint);text-align:left;white-space:nowrap}"
-    "figure{max-width:640px;margin:1.5rem 0}figure svg{width:100%}figcaption,pre{font-size:13px;white-space:pre-wrap}";
 
 }  // namespace
 
@@ -44,6 +48,7 @@ std::string to_markdown(const Report& report) {
   for (const std::string& fact : report.facts) text += "- " + fact + "\n";
   if (!report.notes.empty()) text += "\n" + report.notes + "\n";
   for (const Table& table : report.tables) {
+    if (table.every_run) continue;
     text += "\n## " + table.title + "\n\n";
     if (!table.caption.empty()) text += table.caption + "\n\n";
     text += markdown_row(table.header) + markdown_row(std::vector<std::string>(table.header.size(), "---"));
@@ -55,18 +60,16 @@ std::string to_markdown(const Report& report) {
 }
 
 std::string to_html(const Report& report) {
-  std::string text =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width\">\n<title>" +
-      escape_markup(report.title) + "</title>\n<style>" + kStyle + "</style></head><body>\n<h1>" +
-      escape_markup(report.title) + "</h1>\n<ul>\n";
-  for (const std::string& fact : report.facts) text += "<li>" + escape_markup(fact) + "</li>\n";
+  std::string text = "<ul>\n";
+  for (const std::string& fact : report.facts) text += "<li>" + escaped(fact) + "</li>\n";
   text += "</ul>\n";
-  if (!report.notes.empty()) text += "<pre>" + escape_markup(report.notes) + "</pre>\n";
+  if (!report.notes.empty()) text += "<pre>" + escaped(report.notes) + "</pre>\n";
+  if (!report.charts.empty()) text += "<div class=\"charts\">\n";
   for (const Chart& chart : report.charts)
-    text += "<figure>\n" + to_svg(chart) + "<figcaption>" + escape_markup(chart.caption) + "</figcaption></figure>\n";
+    text += "<figure>\n" + to_svg(chart) + "<figcaption>" + escaped(chart.caption) + "</figcaption></figure>\n";
+  if (!report.charts.empty()) text += "</div>\n";
   for (const Table& table : report.tables) text += html_table(table);
-  return text + "</body></html>\n";
+  return view::document_page(report.title, text);
 }
 
 std::string to_csv(const Table& table) {

@@ -23,21 +23,24 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-/// Corners of the triangles of every mesh below the node, in the frame of the scene.
-void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, std::vector<Eigen::Vector3d>& out) {
+/// The triangles of every mesh below the node, in the frame of the scene; corners that no face uses are left out.
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, TriangleMesh& out) {
   const aiMatrix4x4 X = parent * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
-    std::vector<bool> used(mesh.mNumVertices, false);
+    std::vector<int> index_of(mesh.mNumVertices, -1);
+    const auto index = [&](unsigned v) {
+      if (index_of[v] < 0) {
+        const aiVector3D p = X * mesh.mVertices[v];
+        index_of[v] = static_cast<int>(out.vertices.size());
+        out.vertices.emplace_back(p.x, p.y, p.z);
+      }
+      return index_of[v];
+    };
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices < 3) continue;  // points and lines are no surface
-      for (unsigned i = 0; i < face.mNumIndices; ++i) used[face.mIndices[i]] = true;
-    }
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-      if (!used[v]) continue;
-      const aiVector3D p = X * mesh.mVertices[v];
-      out.emplace_back(p.x, p.y, p.z);
+      const aiFace& face = mesh.mFaces[f];  // points and lines are no surface
+      for (unsigned i = 2; i < face.mNumIndices; ++i)
+        out.triangles.push_back({index(face.mIndices[0]), index(face.mIndices[i - 1]), index(face.mIndices[i])});
     }
   }
   for (unsigned c = 0; c < node.mNumChildren; ++c) collect(scene, *node.mChildren[c], X, out);
@@ -52,7 +55,7 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Result<LoadedHull> load_hull(const std::string& path, const Eigen::Vector3d& scale) {
+Result<TriangleMesh> load_triangles(const std::string& path, const Eigen::Vector3d& scale) {
   if (!scale.allFinite() || (scale.array() == 0).any()) return Error{path + ": mesh scale must be finite and not zero"};
   const std::string extension = lower_extension(path);
   if (extension != "stl" && extension != "obj" && extension != "dae")
@@ -66,15 +69,20 @@ Result<LoadedHull> load_hull(const std::string& path, const Eigen::Vector3d& sca
   const aiScene* scene = importer.ReadFileFromMemory(bytes->data(), bytes->size(), 0, extension.c_str());
   if (!scene || !scene->mRootNode)
     return Error{path + ": not a readable " + extension + " mesh: " + one_line(importer.GetErrorString())};
-  std::vector<Eigen::Vector3d> points;
-  collect(*scene, *scene->mRootNode, aiMatrix4x4(), points);
-  if (points.empty()) return Error{path + ": mesh without triangles"};
-  for (Eigen::Vector3d& p : points) {
+  TriangleMesh mesh;
+  collect(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  if (mesh.triangles.empty()) return Error{path + ": mesh without triangles"};
+  for (Eigen::Vector3d& p : mesh.vertices) {
     if (!p.allFinite()) return Error{path + ": mesh with a coordinate that is not finite"};
     p = p.cwiseProduct(scale);
   }
+  return mesh;
+}
 
-  std::optional<ConvexHull> full = convex_hull(points);
+Result<LoadedHull> load_hull(const std::string& path, const Eigen::Vector3d& scale) {
+  const Result<TriangleMesh> mesh = load_triangles(path, scale);
+  if (!mesh) return mesh.error();
+  std::optional<ConvexHull> full = convex_hull(mesh->vertices);
   if (!full) return Error{path + ": mesh has no volume"};
   SimplifiedHull simplified = simplify(*full);
   simplified.hull.source = path;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "io/notes_json.hpp"
+
 #include "mamo/common/hash.hpp"
 
 namespace mamo::io {
@@ -129,6 +131,7 @@ std::string result_json(const PlanResult& result, const Problem& problem, int in
   out["second_order_contacts"] = result.second_order_contacts;
   out["stats"] = stats_object(result.stats, problem.scene);
   out["plan"] = plan_object(result.plan, problem.scene);
+  if (!result.notes.empty()) out["notes"] = notes_to_json(result.notes, problem.scene);
   return dump(out, indent);
 }
 

@@ -134,16 +134,19 @@ void ContactPairs::gather(Pair& pair) {
   }
 }
 
-std::optional<double> ContactPairs::touch_depth(const Pair& pair) {
-  std::optional<double> depth;
-  if (pair.points == 0) return depth;
+std::optional<ContactPairs::TouchPoint> ContactPairs::touch_point(const Pair& pair) {
+  std::optional<TouchPoint> deepest;
+  if (pair.points == 0) return deepest;
   for (const btPersistentManifold* m : pair.manifolds)
     for (int i = 0; i < m->getNumContacts(); ++i) {
       const btManifoldPoint& p = m->getContactPoint(i);
       if (p.getDistance() > 0 && p.getAppliedImpulse() <= 0) continue;
-      depth = std::max({depth.value_or(0.0), -p.getDistance(), 0.0});
+      const double depth = std::max(-p.getDistance(), 0.0);
+      if (deepest && depth <= deepest->depth) continue;
+      const btVector3& at = p.getPositionWorldOnB();
+      deepest = TouchPoint{depth, {at.x(), at.y(), at.z()}};
     }
-  return depth;
+  return deepest;
 }
 
 btDispatcher* ContactPairs::dispatcher() { return &bullet_->dispatcher; }

@@ -1,6 +1,8 @@
 // Narrow phase: the contact points of every pair of bodies that are near each other, kept from step to step.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -50,8 +52,12 @@ class ContactPairs {
   const std::vector<Pair*>& visited() const { return visited_; }
   /// Pairs that hold contact points, visited or not, in no particular order.
   const std::vector<Pair*>& live() const { return live_; }
-  /// Depth (m) of the deepest point that touches (distance <= 0, or it carries a force), if any.
-  static std::optional<double> touch_depth(const Pair& pair);
+  /// The deepest point that touches (distance <= 0, or it carries a force), if any.
+  struct TouchPoint {
+    double depth;         // m, >= 0
+    Eigen::Vector3d p_W;  // m, on the second body
+  };
+  static std::optional<TouchPoint> touch_point(const Pair& pair);
   /// Forgets pairs that the last collide() did not visit and for which `stale` says so.
   template <class Predicate>
   void forget(Predicate stale) {

@@ -236,10 +236,10 @@ void World::contacts(std::vector<Contact>& out) const {
   out.clear();
   Impl& w = *impl_;
   for (const ContactPairs::Pair* p : w.pairs->live()) {
-    const std::optional<double> depth = ContactPairs::touch_depth(*p);
-    if (!depth) continue;
+    const std::optional<ContactPairs::TouchPoint> touch = ContactPairs::touch_point(*p);
+    if (!touch) continue;
     const ObjectId a = w.at(w.pairs->first(*p)).name(), b = w.at(w.pairs->second(*p)).name();
-    out.push_back({std::min(a, b), std::max(a, b), *depth});
+    out.push_back({std::min(a, b), std::max(a, b), touch->depth, touch->p_W});
   }
   // Several links may touch one object: the deepest stays.
   std::sort(out.begin(), out.end(), [](const Contact& x, const Contact& y) {

@@ -129,6 +129,7 @@ bool SelSimQuery::accept(const Search& found) {
   result_.stats.collision_checks += evaluator().collision_checks() - checks;
   if (raw.track.stopped) return false;
   if (!raw.track.ok) {
+    note_refuted(raw, raw.track.failed_edge, raw.track.states.back(), *raw.track.violation);
     learn(raw.track.interactions, *raw.track.violation,
           raw.step_of_leg[static_cast<std::size_t>(raw.track.failed_edge)], found);
     return false;
@@ -148,14 +149,24 @@ bool SelSimQuery::accept(const Search& found) {
   const std::vector<double>& t = raw.track.motion.t;
   const auto point = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), violation.time_s) - t.begin());
   const int leg = raw.track.edge_of_point[std::min(point, t.size() - 1)];
+  note_refuted(raw, leg, raw.track.states[static_cast<std::size_t>(std::max(leg, 0))], violation);
   learn(raw.verdict.interactions, violation, leg < 0 ? 0 : raw.step_of_leg[static_cast<std::size_t>(leg)], found);
   return false;
+}
+
+void SelSimQuery::note_refuted(const Candidate& candidate, int edge, const WorldState& before,
+                               const Violation& violation) {
+  if (!options_.explain || candidate.path.size() < 2) return;
+  const auto k = static_cast<std::size_t>(std::max(edge, 0));
+  notes_.refuted(result_.stats.planning_iterations, problem_, *kinematics_, candidate.path[k], candidate.path[k + 1],
+                 before, violation);
 }
 
 void SelSimQuery::learn(const std::vector<Interaction>& interactions, const Violation& violation, int step,
                         const Search& found) {
   ++result_.stats.failures["replay_" + std::string(to_string(violation.kind))];
   const ObjectId id = relevant_object(interactions, violation.object, relevant_, problem_.scene);
+  if (options_.explain) notes_.learned(id);
   if (id.valid()) {
     relevant_.insert(id);
     result_.stats.relevant_objects.push_back(id);
@@ -184,6 +195,7 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
       for (Eigen::Index i = 0; i < segment.motion.q[k].size(); ++i) signature_.add(segment.motion.q[k][i]);
     }
   result_.signature = signature_.value();
+  if (options_.explain) result_.notes = notes_.take(problem_, *model_);
   if (!options_.trace_path.empty()) {
     std::ofstream out(options_.trace_path);
     search::write_trace(trace_, out);

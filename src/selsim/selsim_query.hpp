@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "selsim/selsim_notes.hpp"
 #include "selsim/selsim_options.hpp"
 
 #include "mamo/common/executor.hpp"
@@ -43,6 +44,7 @@ class SelSimQuery {
   bool accept(const Search& found);
   bool judged(Candidate& candidate);
   void learn(const std::vector<Interaction>& interactions, const Violation& violation, int step, const Search& found);
+  void note_refuted(const Candidate& candidate, int edge, const WorldState& before, const Violation& violation);
   EdgeEvaluator& evaluator() { return *workers_.front(); }
   Plan plan_of(const Track& track) const;
   PlanResult& finish(PlanStatus status, std::string reason);
@@ -68,6 +70,7 @@ class SelSimQuery {
   search::Trace trace_;  // of the planning iteration that took longest, if a trace is asked for
   Stopwatch watch_;
   PlanResult result_;
+  SelSimNotes notes_;  // filled if they are asked for
   HashStream signature_;
   bool merged_ = false;  // some state was dropped whose exact key differed from the one that closed its class
 };

@@ -5,6 +5,7 @@
 #include "verify/constraints.hpp"
 #include "verify/interaction_log.hpp"
 #include "verify/plan_checks.hpp"
+#include "verify/recorder.hpp"
 
 #include "mamo/physics/world.hpp"
 
@@ -17,7 +18,7 @@ constexpr double kGraspReach = 0.02;  // m: what a gripper holds is this near to
 class Replay {
  public:
   Replay(const Problem& problem, const Plan& plan, const Timeline& line,
-         std::shared_ptr<const ForwardKinematics> kinematics, ArmCheck& arm)
+         std::shared_ptr<const ForwardKinematics> kinematics, ArmCheck& arm, Recording* recording)
       : problem_(problem),
         scene_(problem.scene),
         line_(line),
@@ -27,12 +28,14 @@ class Replay {
         constraints_(problem, *kinematics),
         log_(problem.scene),
         grasp_(grasp_segment(problem, plan)) {
+    if (recording) recorder_.emplace(problem.scene, *recording);
     if (const Retrieve* retrieve = std::get_if<Retrieve>(&problem.task)) retrieved_ = retrieve->object;
   }
 
   ReplayOutcome run(double until_s, StopSource& stop) {
     world_.reset(ObjectSet::all(scene_), WorldState::start_of(scene_), line_.path.q.front());
     q_ = line_.path.q.front();
+    if (recorder_) recorder_->note(world_, {}, 0.0, q_);
     begin_and_end_segments(0.0, false);
     const double step_s = scene_.physics.step;
     const long motion_steps = static_cast<long>(std::ceil(line_.duration_s() / step_s - 1e-6));
@@ -63,6 +66,7 @@ class Replay {
     std::vector<Contact> counted;
     for (const Contact& c : contacts_) counted.push_back(constraints_.as_robot(c, grip_));
     log_.note(world_, counted, time_s);
+    if (recorder_) recorder_->note(world_, counted, time_s, q);
     if (std::optional<Violation> v = constraints_.judge(world_, contacts_, grip_)) report(*v, time_s, {});
     constraints_.track_clearing(contacts_, grip_);
     if (!out_.violation && grip_ == Grip::holding) {
@@ -141,6 +145,7 @@ class Replay {
     world_.attach(retrieved_, tip);
     arm_.hold(scene_[retrieved_], tip, kinematics_->link_pose(q_, tip).inverse() * X_WO, std::move(support));
     grip_ = Grip::holding;
+    if (recorder_) recorder_->grasped(time_s);
   }
 
   void report(Violation v, double time_s, std::string detail) {
@@ -151,6 +156,7 @@ class Replay {
   }
 
   ReplayOutcome finish() {
+    if (recorder_) recorder_->finish();
     out_.interactions = log_.interactions();
     out_.holding = grip_ == Grip::holding;
     return std::move(out_);
@@ -164,6 +170,7 @@ class Replay {
   World world_;
   Constraints constraints_;
   InteractionLog log_;
+  std::optional<Recorder> recorder_;
   const int grasp_;  // segment, -1: none
   ObjectId retrieved_ = kNoObject;
   Grip grip_ = Grip::none;
@@ -178,8 +185,8 @@ class Replay {
 
 ReplayOutcome replay(const Problem& problem, const Plan& plan, const Timeline& line,
                      std::shared_ptr<const ForwardKinematics> kinematics, ArmCheck& arm, double until_s,
-                     StopSource& stop) {
-  return Replay(problem, plan, line, std::move(kinematics), arm).run(until_s, stop);
+                     StopSource& stop, Recording* recording) {
+  return Replay(problem, plan, line, std::move(kinematics), arm, recording).run(until_s, stop);
 }
 
 }  // namespace mamo::verify

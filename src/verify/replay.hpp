@@ -13,6 +13,7 @@
 #include "mamo/common/stop.hpp"
 #include "mamo/kinematics/forward_kinematics.hpp"
 #include "mamo/model/planner.hpp"
+#include "mamo/model/recording.hpp"
 
 namespace mamo::verify {
 
@@ -28,8 +29,9 @@ struct ReplayOutcome {
 };
 
 /// until_s: stop there (an arm hit has been found); infinity to go to the end. `arm` is told what is held.
+/// recording: may be null.
 ReplayOutcome replay(const Problem& problem, const Plan& plan, const Timeline& line,
                      std::shared_ptr<const ForwardKinematics> kinematics, ArmCheck& arm, double until_s,
-                     StopSource& stop);
+                     StopSource& stop, Recording* recording = nullptr);
 
 }  // namespace mamo::verify

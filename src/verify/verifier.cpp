@@ -42,6 +42,15 @@ std::optional<Verdict::Finding> check_arm(const Problem& problem, const Plan& pl
 }  // namespace
 
 Verdict Verifier::judge(const Problem& problem, const Plan& plan, StopSource& stop) const {
+  return run(problem, plan, stop, nullptr);
+}
+
+Verdict Verifier::judge(const Problem& problem, const Plan& plan, StopSource& stop, Recording& recording) const {
+  recording = {};
+  return run(problem, plan, stop, &recording);
+}
+
+Verdict Verifier::run(const Problem& problem, const Plan& plan, StopSource& stop, Recording* recording) const {
   Verdict verdict;
   verdict.findings = check_form(problem, plan);
   if (verdict.findings.empty()) verdict.findings = check_joints(problem, plan);
@@ -52,7 +61,7 @@ Verdict Verifier::judge(const Problem& problem, const Plan& plan, StopSource& st
   ArmCheck arm(problem, *kinematics, options_.arm_step);
   const std::optional<Verdict::Finding> arm_hit = check_arm(problem, plan, line, arm, stop);
   const double until_s = arm_hit ? arm_hit->violation.time_s : std::numeric_limits<double>::infinity();
-  ReplayOutcome outcome = replay(problem, plan, line, kinematics, arm, until_s, stop);
+  ReplayOutcome outcome = replay(problem, plan, line, kinematics, arm, until_s, stop, recording);
   if (outcome.stopped || stop.stopped()) {
     verdict = {};
     verdict.stopped = true;

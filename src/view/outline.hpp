@@ -1,7 +1,7 @@
 // What a shape covers seen from above.
 #pragma once
 
-#include "view/svg.hpp"
+#include "mamo/view/svg.hpp"
 
 #include "mamo/model/shape.hpp"
 

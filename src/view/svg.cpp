@@ -1,4 +1,4 @@
-#include "view/svg.hpp"
+#include "mamo/view/svg.hpp"
 
 #include <cstdio>
 
@@ -38,6 +38,11 @@ std::string path_data(const Points2& points, bool closed) {
 std::string path_element(const std::string& css, const Points2& points, bool closed, const std::string& tooltip) {
   std::string out = "<path class=\"" + css + "\" d=\"" + path_data(points, closed) + "\"";
   return out + (tooltip.empty() ? "/>\n" : "><title>" + escaped(tooltip) + "</title></path>\n");
+}
+
+std::string line_element(const std::string& css, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return "<line class=\"" + css + "\" x1=\"" + px(from.x()) + "\" y1=\"" + px(from.y()) + "\" x2=\"" + px(to.x()) +
+         "\" y2=\"" + px(to.y()) + "\"/>\n";
 }
 
 std::string text_element(const std::string& css, const Eigen::Vector2d& at, const std::string& text,

@@ -9,7 +9,7 @@
 #include "view/label_placer.hpp"
 #include "view/outline.hpp"
 #include "view/plan_path.hpp"
-#include "view/svg.hpp"
+#include "mamo/view/svg.hpp"
 #include "view/top_view_style.hpp"
 
 #include "mamo/kinematics/forward_kinematics.hpp"

@@ -22,8 +22,8 @@ TEST(Chart, DrawsEverySeriesInsideItsFrame) {
   EXPECT_THAT(svg, HasSubstr("a &lt; b"));
   EXPECT_EQ(count(svg, "class=\"line\""), 2);
   EXPECT_EQ(count(svg, "<circle"), 3 + 2) << "a mark for each point and for each name in the legend";
-  EXPECT_THAT(svg, HasSubstr("cy=\"40.0\"")) << "1 is the upper edge";
-  EXPECT_THAT(svg, HasSubstr("cy=\"348.0\"")) << "0 is the axis";
+  EXPECT_THAT(svg, HasSubstr("cy=\"40\"")) << "1 is the upper edge";
+  EXPECT_THAT(svg, HasSubstr("cy=\"348\"")) << "0 is the axis";
   EXPECT_THAT(svg, HasSubstr("prefers-color-scheme:dark"));
 }
 

@@ -154,13 +154,13 @@ TEST(Report, DoesNotDependOnTheOrderOfLinesNorOnRepeatedOnes) {
   const Report a = make_report(records), b = make_report(backwards);
   EXPECT_EQ(to_html(a), to_html(b));
   EXPECT_EQ(to_markdown(a), to_markdown(b));
-  ASSERT_EQ(a.tables.size(), 3u);
+  ASSERT_EQ(a.tables.size(), 4u);
   EXPECT_EQ(a.tables[0].rows[0][3], "3/4");
   const auto& row = a.tables[0].rows[0];
   EXPECT_EQ(row[row.size() - 2], "0.92") << "published beside ours";
   EXPECT_EQ(row.back(), "3.23");
   EXPECT_THAT(to_html(a), testing::AllOf(testing::HasSubstr("too &lt;hard&gt;"), testing::HasSubstr("<svg"),
-                                         testing::HasSubstr("prefers-color-scheme:dark")));
+                                         testing::HasSubstr("prefers-color-scheme: dark")));
 }
 
 TEST(Report, QuotesCsvCells) {

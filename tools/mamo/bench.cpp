@@ -1,5 +1,6 @@
 // mamo bench: the runs of a suite, one line of JSON for each.
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "bench_runner.hpp"
@@ -11,6 +12,7 @@
 #include "session.hpp"
 
 #include "mamo/common/stopwatch.hpp"
+#include "mamo/io/load.hpp"
 #include "mamo/planners/registry.hpp"
 
 namespace mamo::tool {
@@ -99,6 +101,12 @@ int run(const CLI::App& app, BenchCommand& command, Console& console) {
     if (const Status status = file.open(command.out, command.resume); !status.ok())
       return fail(console, status.error());
   }
+  if (!command.options.pages.empty()) {
+    std::error_code none;
+    std::filesystem::create_directories(command.options.pages, none);
+    const std::string probe = (std::filesystem::path(command.options.pages) / "page.html").string();
+    if (const Status status = io::check_writable(probe); !status.ok()) return fail(console, status.error());
+  }
   const auto runs = runs_left(*suite, command, file);
   if (!runs.ok()) return fail(console, runs.error());
   const RunMachine machine{machine_json(), source_commit()};
@@ -170,6 +178,9 @@ void add_bench(CLI::App& app, Session& session) {
   sub->add_option("--shard", command->shard, "Only every N-th problem, from the I-th: parts for several machines")
       ->type_name("I/N")
       ->check(check_shard);
+  sub->add_option("--pages", command->options.pages, "Folder for a playback page of every run; mamo report links to them")
+      ->type_name("DIR")
+      ->check(file_name());
   sub->add_flag("--no-plans", command->no_plans, "Leave the plans out of the lines");
   add_console_options(*sub, session);
   sub->footer(

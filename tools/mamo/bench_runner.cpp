@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <ctime>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -11,9 +12,11 @@
 #include "summary.hpp"
 
 #include "mamo/common/stopwatch.hpp"
+#include "mamo/io/load.hpp"
 #include "mamo/planners/registry.hpp"
 #include "mamo/planners/validate.hpp"
 #include "mamo/verify/verifier.hpp"
+#include "mamo/view/playback.hpp"
 
 namespace mamo::tool {
 namespace {
@@ -123,6 +126,17 @@ PlanResult plan(const PlannerEntry& entry, const BenchRun& run, const Problem& p
   return result;
 }
 
+/// The plan is verified once more for its recording; the run's own times are taken before.
+Status write_page(const std::string& folder, const BenchRun& run, const Problem& problem, const PlanResult& result) {
+  StopSource stop;
+  Recording recording;
+  Verdict verdict;
+  const bool planned = !result.plan.empty();
+  if (planned) verdict = Verifier().judge(problem, result.plan, stop, recording);
+  const view::Playback shown{&problem, &result, planned ? &recording : nullptr, planned ? &verdict : nullptr};
+  return io::write_file((std::filesystem::path(folder) / page_file_name(run.id)).string(), view::playback_page(shown));
+}
+
 }  // namespace
 
 Status run_all(const Suite& suite, const std::vector<BenchRun>& runs, const BenchOptions& options,
@@ -155,8 +169,11 @@ Status run_all(const Suite& suite, const std::vector<BenchRun>& runs, const Benc
     done.result.stats.peak_memory_mb = peak_memory_mb();
     done.line =
         bench_line(suite, run, done.result, problem.ok() ? *problem : unread, machine, started, options.keep_plans);
+    Status page;
+    if (!options.pages.empty() && problem.ok()) page = write_page(options.pages, run, *problem, done.result);
     const std::lock_guard lock(mutex);
     if (failure) return;
+    if (!page.ok()) return give_up(page.error());
     if (const Status status = finished(done); !status.ok()) give_up(status.error());
   };
 

@@ -20,6 +20,7 @@ struct BenchOptions {
   int jobs = 1;     // runs at a time
   int threads = 1;  // inside one run, where the suite says nothing
   bool keep_plans = true;
+  std::string pages;  // folder for a playback page of every run that has a plan or a reason; empty: none
 };
 
 /// Calls `finished` for every run, one call at a time, in the order in which they end; nothing of a run depends on the

@@ -60,6 +60,7 @@ int run(int argc, char** argv) {
   add_plan(app, session);
   add_verify(app, session);
   add_generate(app, session);
+  add_view(app, session);
   add_info(app, session);
   add_convert(app, session);
   add_bench(app, session);

@@ -99,8 +99,8 @@ void add_planning_options(CLI::App& command, PlanningOptions& options) {
       ->type_name("FILE")
       ->check(file_name())
       ->group(kGroup);
-  // Accepted everywhere, shown in help once a planner of this build heeds it.
-  command.add_flag("--explain", plan.explain, "Say why")->group("");
+  command.add_flag("--explain", plan.explain, "Put what the planner tried and learned into the result, for mamo view")
+      ->group(kGroup);
   command.add_flag("--no-smooth", options.no_smooth, "Keep the raw path of the search")->group(kGroup);
   command.add_option("--config", options.config, "YAML file of options by name; the command line wins over it")
       ->type_name("FILE")

@@ -14,7 +14,7 @@ namespace {
 
 struct ReportCommand {
   std::vector<std::string> results;
-  std::string out, notes;
+  std::string out, notes, pages;
 };
 
 int run(const ReportCommand& command, Console& console) {
@@ -31,7 +31,12 @@ int run(const ReportCommand& command, Console& console) {
   }
   if (records.empty()) return fail(console, {command.results.front() + ": no results to report"});
   const std::size_t lines = records.size();
-  Report report = make_report(std::move(records));
+  const std::filesystem::path pages = command.pages.empty() ? file("pages") : command.pages;
+  Report report = make_report(std::move(records), [&](const Record& r) -> std::string {
+    const std::filesystem::path page = pages / page_file_name(r.run);
+    std::error_code none;
+    return std::filesystem::exists(page, none) ? std::filesystem::relative(page, command.out, none).string() : "";
+  });
   if (!command.notes.empty()) {
     const auto notes = io::read_file(command.notes);
     if (!notes.ok()) return fail(console, notes.error());
@@ -62,6 +67,9 @@ void add_report(CLI::App& app, Session& session) {
       ->check(file_name());
   sub->add_option("--notes", command->notes, "Text that goes into the report: what a person found")
       ->type_name("FILE")
+      ->check(file_name());
+  sub->add_option("--pages", command->pages, "Playback pages of mamo bench --pages (default: DIR/pages)")
+      ->type_name("DIR")
       ->check(file_name());
   add_console_options(*sub, session);
   sub->footer("Example:\n  mamo report bench/results/selsim_table1.jsonl --out report");

@@ -25,7 +25,4 @@ struct Chart {
 
 std::string to_svg(const Chart& chart);
 
-/// For element content and attributes of HTML and SVG.
-std::string escape_markup(const std::string& text);
-
 }  // namespace mamo

@@ -23,6 +23,9 @@ struct RunMachine {
 std::string bench_line(const Suite& suite, const BenchRun& run, const PlanResult& result, const Problem& problem,
                        const RunMachine& machine, const std::string& started, bool keep_plan);
 
+/// Name of the file of a run's playback page.
+std::string page_file_name(const std::string& run);
+
 /// What reports need of a line.
 struct Record {
   std::string suite, run, settings, setting, label, planner, problem, problem_sha256, constraints, status, reason;

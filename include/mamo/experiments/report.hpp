@@ -2,6 +2,7 @@
 // numbers beside ours.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct Table {
   std::string title, caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  bool every_run = false;          // long: folded away on the page, not in the Markdown
+  std::vector<std::string> links;  // empty, or per row what its first cell links to ("": nothing)
 };
 
 struct Report {
@@ -26,8 +29,9 @@ struct Report {
 };
 
 /// A run that stands in two files counts once (the first). Every suite gets a table of results, one of comparisons, one
-/// of what was not solved, and the charts its settings allow.
-Report make_report(std::vector<Record> records);
+/// of what was not solved, one of every run, and the charts its settings allow. page_of: address of a run's playback page
+/// as seen from the report, "" where there is none; may be empty.
+Report make_report(std::vector<Record> records, const std::function<std::string(const Record&)>& page_of = {});
 
 std::string to_markdown(const Report& report);
 /// One self-contained page.

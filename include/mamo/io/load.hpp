@@ -50,6 +50,9 @@ Result<Problem> load_problem(const std::string& path, const LoadOptions& options
 
 /// A result object or its bare plan (JSON).
 Result<Plan> load_plan(const std::string& path, const Problem& problem);
+/// The same with how the run went (status, reason, most counters, notes), for people to look at. A run that found no
+/// plan is no error here; a bare plan counts as solved.
+Result<PlanResult> load_result(const std::string& path, const Problem& problem);
 
 /// The native problem file (YAML) of a problem; the inverse of load_problem.
 Result<std::string> to_native_yaml(const Problem& problem);

@@ -1,10 +1,12 @@
-// Mesh files (STL, OBJ, COLLADA) as convex hulls.
+// Mesh files (STL, OBJ, COLLADA) as convex hulls, and as they are for people to look at.
 #pragma once
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "mamo/common/result.hpp"
 #include "mamo/model/shape.hpp"
@@ -22,5 +24,13 @@ struct LoadedHull {
 /// unit of the file counts, its up axis does not (as in ROS: a robot's frames are those of the URDF). Errors name
 /// the file: missing, too large, unreadable, no triangles, no volume, a coordinate that is not finite.
 Result<LoadedHull> load_hull(const std::string& path, const Eigen::Vector3d& scale);
+
+/// The surface itself, for view only. Corners are not shared between the meshes of a file.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;      // m, scaled
+  std::vector<std::array<int, 3>> triangles;  // indices into vertices
+};
+/// Reads and refuses what load_hull() does, but needs no volume. Polygons become triangles.
+Result<TriangleMesh> load_triangles(const std::string& path, const Eigen::Vector3d& scale);
 
 }  // namespace mamo::io

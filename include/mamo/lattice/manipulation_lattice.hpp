@@ -70,6 +70,7 @@ class LatticeModel {
   Eigen::VectorXd configuration(std::int32_t anchor, const std::vector<std::int32_t>& bins) const;
   search::Cost heuristic(const Eigen::VectorXd& q) const;
   const ReachGoal& goal() const { return goal_; }
+  const GridHeuristic& grid() const { return grid_; }
   const ForwardKinematics& kinematics() const { return *kinematics_; }
   const LatticeOptions& options() const { return options_; }
   search::Cost cost_per_cell() const { return cost_per_cell_; }

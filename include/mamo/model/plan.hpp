@@ -12,6 +12,7 @@
 #include "mamo/common/ids.hpp"
 #include "mamo/model/interaction.hpp"
 #include "mamo/model/motion.hpp"
+#include "mamo/model/planning_notes.hpp"
 
 namespace mamo {
 
@@ -70,6 +71,7 @@ struct PlanResult {
   bool second_order_contacts = false;
   PlanStats stats;
   Plan plan;
+  PlanningNotes notes;  // only when PlanOptions::explain asks for it
 };
 
 }  // namespace mamo

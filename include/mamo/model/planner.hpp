@@ -51,7 +51,7 @@ struct PlanOptions {
   int batch = 0;  // 0: the schedule's default
   bool smooth = true;
   std::string trace_path;
-  bool explain = false;
+  bool explain = false;  // fill PlanResult::notes
   std::map<std::string, std::string> set;
 };
 

@@ -14,11 +14,12 @@
 namespace mamo {
 
 /// Two bodies that touch: some contact point of distance <= 0, or one that carries a force. a < b by id value,
-/// kRobot and kFloor included; depth = the deepest penetration (m, >= 0). Contacts come sorted by (a, b), one
-/// per pair.
+/// kRobot and kFloor included; depth = the deepest penetration (m, >= 0), p_W where (world, m). Contacts come sorted
+/// by (a, b), one per pair.
 struct Contact {
   ObjectId a, b;
   double depth = 0;
+  Eigen::Vector3d p_W{0, 0, 0};
 };
 
 /// One instance per worker. After reset() what follows is a pure function of the arguments of reset() and of

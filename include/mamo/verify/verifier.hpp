@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mamo/model/planner.hpp"
+#include "mamo/model/recording.hpp"
 
 namespace mamo {
 
@@ -18,8 +19,11 @@ class Verifier final : public PlanJudge {
  public:
   explicit Verifier(const VerifyOptions& options = {}) : options_(options) {}
   Verdict judge(const Problem& problem, const Plan& plan, StopSource& stop) const override;
+  /// The same verdict; the replay, as far as it came, goes into `recording` (empty when there was none).
+  Verdict judge(const Problem& problem, const Plan& plan, StopSource& stop, Recording& recording) const;
 
  private:
+  Verdict run(const Problem& problem, const Plan& plan, StopSource& stop, Recording* recording) const;
   VerifyOptions options_;
 };
 

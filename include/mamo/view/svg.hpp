@@ -1,4 +1,4 @@
-// Pieces of SVG text: escaped strings, rounded numbers, paths.
+// Pieces of SVG and HTML text: escaped strings, rounded numbers, paths. Shared by top views, charts and pages.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +18,7 @@ std::string px(double value);
 std::string path_data(const Points2& points, bool closed);
 /// <path class="..." d="..."/>, with an optional <title> that browsers show as a tooltip.
 std::string path_element(const std::string& css, const Points2& points, bool closed, const std::string& tooltip = {});
+std::string line_element(const std::string& css, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 std::string text_element(const std::string& css, const Eigen::Vector2d& at, const std::string& text,
                          const std::string& anchor = "start");
 
