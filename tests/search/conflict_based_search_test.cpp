@@ -97,8 +97,8 @@ TEST_P(AgainstTheOracle, TheCostIsWithinTheWeightOfTheOptimum) {
 INSTANTIATE_TEST_SUITE_P(Grids, AgainstTheOracle,
                          testing::Values(Sample{2, 4, 1, 300, false}, Sample{2, 4, 1, 300, true},
                                          Sample{3, 3, 1, 100, false}, Sample{3, 3, 1, 100, true},
-                                         Sample{2, 6, 2, 300, false}, Sample{2, 8, 3, 200, false},
-                                         Sample{3, 6, 2, 100, false}),
+                                         Sample{2, 6, 2, 300, false}, Sample{2, 8, 3, 80, false},
+                                         Sample{3, 6, 2, 60, false}),
                          [](const auto& i) {
                            return std::to_string(i.param.agents) + "AgentsOfBody" + std::to_string(i.param.body) +
                                   "OnSide" + std::to_string(i.param.side) + (i.param.swaps ? "NoSwaps" : "");

@@ -33,7 +33,7 @@ class SpaceTimeIndex {
   }
   /// The slot of the key, -1 in it if it is new.
   std::int32_t& operator()(AgentNode node, std::int32_t time) {
-    if (2 * ++size_ > keys_.size()) grow();
+    if (2 * (size_ + 1) > keys_.size()) grow();
     return slot((static_cast<std::uint64_t>(static_cast<std::uint32_t>(time)) << 32) |
                 static_cast<std::uint32_t>(node));
   }
@@ -43,8 +43,11 @@ class SpaceTimeIndex {
   std::int32_t& slot(std::uint64_t key) {
     std::size_t i = mix64(key) & (keys_.size() - 1);
     while (keys_[i] != key && keys_[i] != kFree) i = (i + 1) & (keys_.size() - 1);
-    if (keys_[i] == kFree) values_[i] = -1;
-    keys_[i] = key;
+    if (keys_[i] == kFree) {
+      keys_[i] = key;
+      values_[i] = -1;
+      ++size_;
+    }
     return values_[i];
   }
   void grow() {
@@ -52,12 +55,12 @@ class SpaceTimeIndex {
     const std::vector<std::int32_t> values = std::move(values_);
     keys_.assign(2 * keys.size(), kFree);
     values_.resize(keys_.size());
-    size_ = 1;
+    size_ = 0;
     for (std::size_t i = 0; i < keys.size(); ++i)
-      if (keys[i] != kFree) ++size_, slot(keys[i]) = values[i];
+      if (keys[i] != kFree) slot(keys[i]) = values[i];
   }
 
-  std::size_t size_ = 0;  // an upper bound: look-ups of known keys count until the next growth
+  std::size_t size_ = 0;
   std::vector<std::uint64_t> keys_;
   std::vector<std::int32_t> values_;
 };
