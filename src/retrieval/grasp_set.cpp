@@ -15,9 +15,10 @@ constexpr std::uint64_t kIkKey = 0x67726173, kWayKey = 0x776179, kStartKey = 0x7
 constexpr double kReachStep = 0.01, kLiftStep = 0.005, kBackStep = 0.02;  // m, of the lines of the tip
 constexpr double kClearance = 0.1;    // m: the line back may end where the tip is so far outside the objects' space
 constexpr double kLongestBack = 0.7;  // m
-constexpr int kFirstNodes = 300;      // of the search for each way home; a way that needs more waits until it is wanted
-constexpr int kLastNodes = 4;         // times the budget of a call, where no way home was found at all
-constexpr std::size_t kJoined = 8;    // ways that another may join, the latest ones
+constexpr int kFirstNodes = 300;    // of the search for each way home; a way that needs more waits until it is wanted,
+constexpr int kFirstFailures = 16;  // and so does, once so many searches have failed, whatever needs a search
+constexpr int kLastNodes = 4;       // times the budget of a call, where no way home was found at all
+constexpr std::size_t kJoined = 8;  // ways that another may join, the latest ones
 
 /// Makes the candidates one after the other.
 class Builder {
@@ -84,7 +85,7 @@ class Builder {
     line_back(candidate, out, way);
     set_.candidates.push_back(std::move(candidate));
     set_.ways.push_back(std::move(way));
-    find_way(set_.ways.size() - 1, {kFirstNodes});
+    if (!find_way(set_.ways.size() - 1, {failed_ < kFirstFailures ? kFirstNodes : 0})) ++failed_;
     return {};
   }
 
@@ -103,13 +104,14 @@ class Builder {
     return {};
   }
 
-  void find_way(std::size_t c, const JointPathOptions& options) {
+  bool find_way(std::size_t c, const JointPathOptions& options) {
     legs_.grip(set_.candidates[c].reach.back());
     std::vector<Suffix> others;
     for (std::size_t k = known_.size(); k-- > 0 && others.size() < kJoined;)
       others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
     if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
       known_.push_back(c);
+    return set_.ways[c].known;
   }
 
   /// From lifted back above the pre-grasp pose, and on until the tip is outside where objects can be.
@@ -148,6 +150,7 @@ class Builder {
   Legs legs_;
   Eigen::AlignedBox3d space_;
   std::vector<std::size_t> known_;  // candidates with a way home
+  int failed_ = 0;                  // candidates without
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ class Call {
       if (stopped()) return std::move(out_);
       by_search(blocked[k]);
     }
-    out_.exhausted = !out_.path && blocked.empty();
+    out_.exhausted = !out_.path && first <= 0 && blocked.empty();
     return std::move(out_);
   }
 

@@ -24,7 +24,7 @@ struct GraspSet;
 }
 
 struct RetrievalOptions {
-  int grasps = 24;                  // candidate grasp poses around the given pre-grasp: heights, depths, yaws
+  int grasps = 96;                  // candidate grasp poses around the given pre-grasp: heights, depths, yaws
   int solutions = 4;                // inverse-kinematics solutions per grasp
   double lift = 0.05;               // m, straight up before the object is drawn out
   double max_object_tilt_deg = 20;  // of the held object on the way home; 180: free
