@@ -1,6 +1,13 @@
 #include "mamo/model/motion.hpp"
 
 namespace mamo {
+namespace {
+
+/// A motion driven on its own and as a part of a longer plan meets the same instants but for the rounding of the times.
+/// Contact dynamics makes millimetres of that within two seconds, so fractions of a piece are rounded far above it.
+constexpr double kFractions = 1 << 30;
+
+}  // namespace
 
 void TimedPath::at(double time, Eigen::VectorXd& out) const {
   if (time <= t.front()) {
@@ -12,8 +19,11 @@ void TimedPath::at(double time, Eigen::VectorXd& out) const {
     return;
   }
   const std::size_t i = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
-  const double s = (time - t[i - 1]) / (t[i] - t[i - 1]);
-  out = q[i - 1] + s * (q[i] - q[i - 1]);
+  const double s = std::round((time - t[i - 1]) / (t[i] - t[i - 1]) * kFractions) / kFractions;
+  if (s >= 1)
+    out = q[i];
+  else
+    out = q[i - 1] + s * (q[i] - q[i - 1]);
 }
 
 TimedPath time_path(const Robot& robot, const std::vector<Eigen::VectorXd>& path, double step_s) {

@@ -98,6 +98,12 @@ void Body::become(Role role) {
 void Body::place(const Eigen::Isometry3d& X_WB) {
   const bool of_arm = id_ == kRobot && role_ == Role::driven;
   if (!of_arm) become(mass_ > 0 ? Role::free : Role::still);
+  ignores_robot = false;
+  rest_at(X_WB);
+}
+
+/// As if just made: nothing of the past is left.
+void Body::rest_at(const Eigen::Isometry3d& X_WB) {
   const btVector3 zero(0, 0, 0);
   rigid_->setWorldTransform(to_bullet(Eigen::Isometry3d(X_WB * shape_->X_BC())));
   rigid_->setInterpolationWorldTransform(rigid_->getWorldTransform());
@@ -112,7 +118,7 @@ void Body::place(const Eigen::Isometry3d& X_WB) {
   rigid_->setCompanionId(-1);
   rigid_->setHitFraction(1);
   resist_rolling();
-  awake_ = moving_ = stirred_ = ignores_robot = false;
+  awake_ = moving_ = false;
   rest_steps_ = 0;
   travel_ = 0;
   update_bounds();
@@ -127,7 +133,6 @@ void Body::attach_to(LinkId link, const Eigen::Isometry3d& X_LB) {
   rigid_->clearForces();
   rigid_->updateInertiaTensor();
   awake_ = false;
-  stirred_ = true;
 }
 
 void Body::drive(const Eigen::Isometry3d& X_WL, double rate) {
@@ -143,7 +148,6 @@ void Body::drive(const Eigen::Isometry3d& X_WL, double rate) {
 void Body::arrive(const Eigen::Isometry3d& X_WL) {
   if (!moving_) return;
   rigid_->setWorldTransform(to_bullet(Eigen::Isometry3d(X_WL * X_LC_)));
-  stirred_ = true;
 }
 
 void Body::apply_gravity() { rigid_->applyGravity(); }
@@ -169,18 +173,12 @@ void Body::resist_rolling() {
 }
 
 void Body::wake() {
-  awake_ = stirred_ = true;
+  awake_ = true;
   resist_rolling();
   rest_steps_ = 0;
 }
 
-void Body::put_to_sleep() {
-  awake_ = false;
-  rigid_->setLinearVelocity({0, 0, 0});
-  rigid_->setAngularVelocity({0, 0, 0});
-  travel_ = 0;
-  update_bounds();
-}
+void Body::put_to_sleep(const Eigen::Isometry3d& X_WB) { rest_at(X_WB); }
 
 void Body::update_travel(double step_s) {
   travel_ = (rigid_->getLinearVelocity().length() + rigid_->getAngularVelocity().length() * radius_) * step_s;

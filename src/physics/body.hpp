@@ -49,7 +49,7 @@ class Body {
   /// Moves a free body by its velocity, counts its steps of rest.
   void integrate(double step_s);
   void wake();
-  void put_to_sleep();
+  void put_to_sleep(const Eigen::Isometry3d& X_WB);
 
   Eigen::Isometry3d X_WB() const;
   Eigen::Vector3d linear_velocity() const;   // of the centre of mass (m/s)
@@ -68,7 +68,6 @@ class Body {
   bool awake() const { return awake_; }    // free bodies only
   bool moving() const { return moving_; }  // driven bodies: in this step
   bool active() const { return awake_ || moving_; }
-  bool stirred() const { return stirred_; }  // active at any time since place()
   bool has_box() const { return has_box_; }
   int rest_steps() const { return rest_steps_; }
   void limit_rest(int steps) { rest_steps_ = std::min(rest_steps_, steps); }
@@ -77,6 +76,7 @@ class Body {
   bool ignores_robot = false;
 
  private:
+  void rest_at(const Eigen::Isometry3d& X_WB);
   void update_bounds();
   void update_travel(double step_s);
   void resist_rolling();
@@ -96,7 +96,7 @@ class Body {
   std::vector<Eigen::Vector3d> rolling_axes_;  // of cylinders, in C; zero for spheres
   Bounds bounds_{};
   bool has_box_ = false;
-  bool awake_ = false, moving_ = false, stirred_ = false;
+  bool awake_ = false, moving_ = false;
   int rest_steps_ = 0;
 };
 

@@ -65,6 +65,14 @@ class ContactPairs {
       if (live_[i]->stamp != stamp_ && stale(first(*live_[i]), second(*live_[i]))) remove(i);
   }
 
+  /// Forgets all pairs for which `stale` says so.
+  template <class Predicate>
+  void drop(Predicate stale) {
+    std::erase_if(visited_, [&](const Pair* p) { return stale(first(*p), second(*p)); });
+    for (std::size_t i = live_.size(); i-- > 0;)
+      if (stale(first(*live_[i]), second(*live_[i]))) remove(i);
+  }
+
   btDispatcher* dispatcher();
 
   /// Distance of two bodies (m) if it is below `limit`, else infinity; negative when they overlap. Uses their

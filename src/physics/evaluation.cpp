@@ -118,10 +118,16 @@ struct Evaluator::Impl {
     }
     const long most = std::lround(scene.physics.settle_time / step_s);
     long waited = 0;
-    for (; waited < most && !rest.all_rest(); ++waited)
+    for (; waited < most && !waited_enough(r); ++waited)
       if (!step(r, r.motion->q.back(), out)) return;
     out.settle_s = static_cast<double>(waited) * step_s;
     if (!rest.all_rest()) out.violation = rest.fastest(world);
+  }
+
+  bool waited_enough(const EvaluationRequest& r) const {
+    if (!r.until_asleep) return rest.all_rest();
+    const std::vector<ObjectId> ids = r.present->ids();
+    return std::none_of(ids.begin(), ids.end(), [&](ObjectId id) { return id != r.held && world.awake(id); });
   }
 
   /// An object that was only near what happened may tremble while it is awake: that is no motion.
@@ -140,8 +146,12 @@ struct Evaluator::Impl {
     out.valid = !out.cancelled && !out.violation;
     out.interactions = log.interactions();
     for (const Interaction& i : out.interactions) out.second_order = out.second_order || i.a.valid();
-    for (const ObjectId id : r.present->ids())
-      if (id == r.held || log.influenced(id) || moved(r, id)) out.state[id] = quantise(world.X_WO(id));
+    for (const ObjectId id : r.present->ids()) {
+      if (id != r.held && !world.awake(id))
+        out.state[id] = world.rest_pose(id);
+      else if (id == r.held || r.until_asleep || log.influenced(id) || moved(r, id))
+        out.state[id] = quantise(world.X_WO(id));
+    }
     return out;
   }
 };

@@ -46,7 +46,7 @@ struct World::Impl {
   btContactSolverInfo info;
   std::vector<bool> fixture;  // by object id
   ObjectSet present;
-  WorldState start;  // as given to reset
+  WorldState rest;  // where each object fell asleep last, or as given to reset
   std::int64_t steps = 0;
   int sleep_after = 0;  // steps
   // Scratch of one step.
@@ -92,7 +92,7 @@ struct World::Impl {
     pairs->clear();
     solver.reset();
     present = wanted;
-    start = state;
+    rest = state;
     steps = 0;
     driven.clear();
     free.clear();
@@ -190,7 +190,17 @@ struct World::Impl {
       }
     }
     for (const int f : free)
-      if (rested(at(f))) at(f).put_to_sleep();
+      if (rested(at(f))) fall_asleep(at(f));
+    pairs->drop([this](int a, int b) { return !at(a).active() && !at(b).active(); });
+  }
+
+  void fall_asleep(Body& b) {
+    const Eigen::Isometry3d X_WO = b.X_WB(), X_WO_before = rest.X_WO(b.id());
+    const Eigen::AngleAxisd turn(X_WO_before.linear().transpose() * X_WO.linear());
+    const bool trembled = (X_WO.translation() - X_WO_before.translation()).norm() < kTrembleDistance &&
+                          std::abs(turn.angle()) < kTrembleAngle;
+    if (!trembled) rest[b.id()] = quantise(X_WO);
+    b.put_to_sleep(rest.X_WO(b.id()));
   }
 
   void step(const Eigen::VectorXd& q) {
@@ -226,7 +236,11 @@ const ObjectSet& World::present() const { return impl_->present; }
 
 Eigen::Isometry3d World::X_WO(ObjectId id) const {
   const Body& b = impl_->of(id);
-  return b.stirred() ? b.X_WB() : impl_->start.X_WO(id);
+  return b.role() == Role::driven || b.awake() ? b.X_WB() : impl_->rest.X_WO(id);
+}
+const QuantisedPose& World::rest_pose(ObjectId id) const {
+  impl_->of(id);
+  return impl_->rest[id];
 }
 Eigen::Vector3d World::linear_velocity(ObjectId id) const { return impl_->of(id).linear_velocity(); }
 Eigen::Vector3d World::angular_velocity(ObjectId id) const { return impl_->of(id).angular_velocity(); }

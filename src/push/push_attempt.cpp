@@ -200,6 +200,7 @@ bool PushAttempt::simulate(const Draw& draw) {
   request.from = &request_.state;
   request.motion = &motion;
   request.untouchable = tools_.bodies.untouchable;
+  request.until_asleep = true;
   request.stop = stop_;
   request.cancel = cancel_;
   Evaluation evaluation = tools_.evaluator.evaluate(request);

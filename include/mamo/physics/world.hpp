@@ -28,7 +28,9 @@ struct Contact {
 ///
 /// Bullet gives the shapes, the contact points and the sequential-impulse solver; the loop around them is ours,
 /// so that bodies are visited in order of id, sleep until something that moves comes within a millimetre or two,
-/// and nothing is kept that reset() does not clear. A floor at z = 0 (lower where the scene starts lower) catches
+/// and nothing is kept that reset() does not clear. What falls asleep is put
+/// to the nearest quantised pose and its contacts are forgotten, so that a motion among objects asleep gives the same
+/// bits whether it is simulated on its own or as a part of a longer one. A floor at z = 0 (lower where the scene starts lower) catches
 /// what falls. Moving links are kinematic: they push with whatever force it takes and are pushed by nothing.
 /// Fixtures, still links and immovables without mass are static.
 class World {
@@ -53,6 +55,8 @@ class World {
   Eigen::Vector3d linear_velocity(ObjectId id) const;
   Eigen::Vector3d angular_velocity(ObjectId id) const;
   bool awake(ObjectId id) const;
+  /// Of an object that is asleep: where it is, exactly. A world reset to these poses goes on like this one.
+  const QuantisedPose& rest_pose(ObjectId id) const;
 
   /// Bodies in contact after the last step. Kinematic or static bodies never pair with one another (the arm
   /// against fixtures and static immovables: ask collision).
@@ -73,6 +77,10 @@ class World {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// An object that falls asleep closer than this to where it woke has not moved: it is put back there. m and rad
+inline constexpr double kTrembleDistance = 1e-4;
+inline constexpr double kTrembleAngle = 1e-3;
 
 /// An object whose linear speed (m/s) and angular speed (rad/s) are below these for kRestTime (s) rests. The
 /// world itself puts it to sleep, with all it touches, after kSleepTime (s) of rest away from the moving arm.
