@@ -5,10 +5,11 @@
 namespace mamo {
 namespace {
 
-/// Calls visit(index, centre) for the cells whose centre is no further than `margin` from the shape.
-template <class Visit>
+/// Calls visit(index, centre) for the cells of interest(index) whose centre is no further than `margin` from the shape.
+template <class Interest, class Visit>
 void for_cells(const Shape& shape, const Eigen::Isometry3d& X_WS, const Eigen::Vector3d& origin, double cell,
-               double margin, const Eigen::Vector3i& least, const Eigen::Vector3i& most, Visit visit) {
+               double margin, const Eigen::Vector3i& least, const Eigen::Vector3i& most, Interest interest,
+               Visit visit) {
   const Eigen::AlignedBox3d box = bounds(shape, X_WS);
   const Eigen::Isometry3d X_SW = X_WS.inverse();
   Eigen::Vector3i lo, hi;
@@ -19,6 +20,7 @@ void for_cells(const Shape& shape, const Eigen::Isometry3d& X_WS, const Eigen::V
   for (int k = lo.z(); k <= hi.z(); ++k)
     for (int j = lo.y(); j <= hi.y(); ++j)
       for (int i = lo.x(); i <= hi.x(); ++i) {
+        if (!interest(Eigen::Vector3i(i, j, k))) continue;
         const Eigen::Vector3d p_W = origin + cell * (Eigen::Vector3d(i, j, k).array() + 0.5).matrix();
         if (signed_distance(shape, X_SW * p_W) <= margin) visit(Eigen::Vector3i(i, j, k), p_W);
       }
@@ -46,26 +48,29 @@ Eigen::Vector3d VoxelVolume::centre_of(const Eigen::Vector3i& index) const {
 }
 
 void VoxelVolume::add(const Shape& shape, const Eigen::Isometry3d& X_WS) {
-  for_cells(shape, X_WS, origin_, cell_, 0.5 * cell_, Eigen::Vector3i::Zero(), size_.array() - 1,
-            [&](const Eigen::Vector3i& index, const Eigen::Vector3d&) {
-              std::uint8_t& marked = cells_[offset(index)];
-              count_ += marked == 0;
-              marked = 1;
-            });
+  // Most cells of a sweep are marked many times over: those cost no distance.
+  for_cells(
+      shape, X_WS, origin_, cell_, 0.5 * cell_, Eigen::Vector3i::Zero(), size_.array() - 1,
+      [&](const Eigen::Vector3i& index) { return cells_[offset(index)] == 0; },
+      [&](const Eigen::Vector3i& index, const Eigen::Vector3d&) {
+        cells_[offset(index)] = 1;
+        ++count_;
+      });
 }
 
 VoxelVolume::Overlap VoxelVolume::overlap(const Object& object, const Eigen::Isometry3d& X_WO) const {
   Overlap out;
   const Eigen::Vector3i any = Eigen::Vector3i::Constant(1 << 28);
   for (std::size_t s = 0; s < object.shapes.size(); ++s)
-    for_cells(object.shapes[s].shape, X_WO * object.shapes[s].X_BS, origin_, cell_, 0.0, -any, any,
-              [&](const Eigen::Vector3i& index, const Eigen::Vector3d& p_W) {
-                for (std::size_t t = 0; t < s; ++t)  // a cell of two shapes counts once
-                  if (signed_distance(object.shapes[t].shape, (X_WO * object.shapes[t].X_BS).inverse() * p_W) <= 0)
-                    return;
-                ++out.object_cells;
-                out.common_cells += contains(index);
-              });
+    for_cells(
+        object.shapes[s].shape, X_WO * object.shapes[s].X_BS, origin_, cell_, 0.0, -any, any,
+        [](const Eigen::Vector3i&) { return true; },
+        [&](const Eigen::Vector3i& index, const Eigen::Vector3d& p_W) {
+          for (std::size_t t = 0; t < s; ++t)  // a cell of two shapes counts once
+            if (signed_distance(object.shapes[t].shape, (X_WO * object.shapes[t].X_BS).inverse() * p_W) <= 0) return;
+          ++out.object_cells;
+          out.common_cells += contains(index);
+        });
   return out;
 }
 

@@ -72,8 +72,7 @@ double signed_distance(const Shape& shape, const Eigen::Vector3d& p) {
                                  return d.cwiseMax(0.0).norm() + std::min(d.maxCoeff(), 0.0);
                                },
                                [&](const Cylinder& c) {
-                                 const Eigen::Vector2d d(std::hypot(p.x(), p.y()) - c.radius,
-                                                         std::abs(p.z()) - c.length / 2);
+                                 const Eigen::Vector2d d(p.head<2>().norm() - c.radius, std::abs(p.z()) - c.length / 2);
                                  return d.cwiseMax(0.0).norm() + std::min(d.maxCoeff(), 0.0);
                                },
                                [&](const Sphere& s) { return p.norm() - s.radius; },

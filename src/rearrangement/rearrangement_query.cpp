@@ -1,6 +1,8 @@
 #include "mamo/rearrangement/rearrangement_query.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
 
 #include "mamo/rearrangement/rearrangement_plan.hpp"
 
@@ -37,11 +39,14 @@ PlanResult RearrangementQuery::run() {
   }
   result_.stats.wall_s = watch_.seconds();
   result_.stats.search_s = result_.stats.wall_s - result_.stats.verification_s;
+  double length = 0;
   for (const Segment& segment : result_.plan.segments)
     for (std::size_t k = 0; k < segment.motion.t.size(); ++k) {
+      if (k > 0) length += (segment.motion.q[k] - segment.motion.q[k - 1]).norm();
       signature_.add(segment.motion.t[k]);
       for (Eigen::Index i = 0; i < segment.motion.q[k].size(); ++i) signature_.add(segment.motion.q[k][i]);
     }
+  result_.cost = static_cast<std::int64_t>(std::ceil(1000 * length));
   result_.signature = signature_.value();
   return std::move(result_);
 }
@@ -80,30 +85,39 @@ std::vector<VoxelVolume> RearrangementQuery::negative_goal_regions() {
   struct Region {
     std::pair<int, std::int64_t> load;  // movables inside, cells that they fill
     VoxelVolume volume;
+    RetrievalPath path;
+    JobBoard::Handle job;
   };
-  std::vector<Region> found;
+  std::deque<Region> found;
   std::map<std::string, std::int64_t> failures;
   bool exhausted = true;
   for (int first = 0; static_cast<int>(found.size()) < settings_.regions;) {
-    const RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), first, WorkerId(0));
-    if (outcome.stopped) return stopped(), std::vector<VoxelVolume>{};
+    RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), first, WorkerId(0));
+    if (outcome.stopped) {
+      for (Region& region : found) board_.finish(region.job);
+      return stopped(), std::vector<VoxelVolume>{};
+    }
     if (!outcome.path) {
       failures = outcome.failures;
       exhausted = outcome.exhausted;
       break;
     }
-    const auto grasp = static_cast<std::size_t>(outcome.path->grasp);
     first = outcome.path->grasp + 1;
-    Region region;
-    region.volume = swept_volume(problem_, *kinematics_, *outcome.path, retrievals_->candidates()[grasp], start, space,
-                                 settings_.retrieval.cell);
-    for (ObjectId id : movables_) {
-      const std::int64_t cells = region.volume.overlap(scene()[id], start.X_WO(id)).common_cells;
-      region.load.first += cells > 0;
-      region.load.second += cells;
-    }
-    found.push_back(std::move(region));
+    Region& region = found.emplace_back();
+    region.path = *std::move(outcome.path);
+    // One worker sweeps a volume while another looks for the next retrieval.
+    region.job = board_.post(0, [this, &region, &start, &space](WorkerId, const std::atomic<bool>&) {
+      const auto grasp = static_cast<std::size_t>(region.path.grasp);
+      region.volume = swept_volume(problem_, *kinematics_, region.path, retrievals_->candidates()[grasp], start, space,
+                                   settings_.retrieval.cell);
+      for (ObjectId id : movables_) {
+        const std::int64_t cells = region.volume.overlap(scene()[id], start.X_WO(id)).common_cells;
+        region.load.first += cells > 0;
+        region.load.second += cells;
+      }
+    });
   }
+  for (Region& region : found) board_.finish(region.job);
   std::ranges::stable_sort(found, {}, &Region::load);
   std::vector<VoxelVolume> out;
   for (Region& region : found) out.push_back(std::move(region.volume));
