@@ -11,7 +11,7 @@
 namespace mamo::retrieval {
 namespace {
 
-constexpr std::uint64_t kIkKey = 0x67726173, kWayKey = 0x776179, kStartKey = 0x7374;
+constexpr std::uint64_t kIkKey = 0x67726173, kWayKey = 0x776179, kStartKey = 0x7374, kApproachKey = 0x617070;
 constexpr double kReachStep = 0.01, kLiftStep = 0.005, kBackStep = 0.02;  // m, of the lines of the tip
 constexpr double kClearance = 0.1;    // m: the line back may end where the tip is so far outside the objects' space
 constexpr double kLongestBack = 0.7;  // m
@@ -111,6 +111,9 @@ class Builder {
       others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
     if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
       known_.push_back(c);
+    if (set_.ways[c].known)
+      set_.ways[c].approach = find_approach(set_, legs_, set_.ways[c], set_.candidates[c].reach.front(),
+                                            RandomStream(set_.seed, {kApproachKey, c}), options, nullptr);
     return set_.ways[c].known;
   }
 
@@ -193,13 +196,16 @@ bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vect
   return true;
 }
 
-std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,
-                                         const Eigen::VectorXd& pregrasp) {
-  if (way.over_pregrasp == 0 || grasps.from_start.empty()) return {};
-  std::vector<Eigen::VectorXd> path = grasps.from_start;
-  path.insert(path.end(), way.path.rbegin() + 1, way.path.rend() - static_cast<std::ptrdiff_t>(way.over_pregrasp));
-  path.push_back(pregrasp);
-  return legs.free(Phase::approach, path) ? path : std::vector<Eigen::VectorXd>{};
+std::vector<Eigen::VectorXd> find_approach(const GraspSet& grasps, Legs& legs, const WayHome& way,
+                                           const Eigen::VectorXd& pregrasp, RandomStream random,
+                                           const JointPathOptions& options, StopSource* stop) {
+  if (way.over_pregrasp > 0 && !grasps.from_start.empty()) {
+    std::vector<Eigen::VectorXd> path = grasps.from_start;
+    path.insert(path.end(), way.path.rbegin() + 1, way.path.rend() - static_cast<std::ptrdiff_t>(way.over_pregrasp));
+    path.push_back(pregrasp);
+    if (legs.free(Phase::approach, path)) return path;
+  }
+  return legs.search(Phase::approach, grasps.around.problem.q_start, {pregrasp}, random, options, stop);
 }
 
 }  // namespace mamo::retrieval

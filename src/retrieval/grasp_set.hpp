@@ -14,12 +14,13 @@
 namespace mamo::retrieval {
 
 /// The way home of a candidate: lifted first, back along the line of the approach as far as that goes, then a searched
-/// path. Walked backwards and empty-handed from home to `over_pregrasp` it is the approach.
+/// path. Walked backwards and empty-handed from home to `over_pregrasp` it is an approach.
 struct WayHome {
   std::vector<Eigen::VectorXd> path;
-  std::size_t over_pregrasp = 0;  // index: above the pre-grasp pose; 0 where the line does not come so far
-  std::size_t line_end = 0;       // index: the last point of the straight line
-  bool known = false;             // the path ends at home, else at line_end
+  std::size_t over_pregrasp = 0;          // index: above the pre-grasp pose; 0 where the line does not come so far
+  std::size_t line_end = 0;               // index: the last point of the straight line
+  bool known = false;                     // the path ends at home, else at line_end
+  std::vector<Eigen::VectorXd> approach;  // from q_start to the pre-grasp; empty: none is known
 };
 
 struct GraspSet {
@@ -44,8 +45,9 @@ struct Suffix {
 bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vector<Suffix>& others, RandomStream random,
                const JointPathOptions& options, StopSource* stop);
 
-/// The approach that belongs to a way home, its end lowered onto the pre-grasp; empty where it is not free.
-std::vector<Eigen::VectorXd> approach_of(const GraspSet& grasps, Legs& legs, const WayHome& way,
-                                         const Eigen::VectorXd& pregrasp);
+/// An approach to a candidate's pre-grasp: the way home backwards where that is free, else a search. Empty if neither.
+std::vector<Eigen::VectorXd> find_approach(const GraspSet& grasps, Legs& legs, const WayHome& way,
+                                           const Eigen::VectorXd& pregrasp, RandomStream random,
+                                           const JointPathOptions& options, StopSource* stop);
 
 }  // namespace mamo::retrieval

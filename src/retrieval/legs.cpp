@@ -101,6 +101,12 @@ std::size_t Legs::free_points(Phase phase, const std::vector<Eigen::VectorXd>& p
   return k;
 }
 
+void Legs::collect(Phase phase, const Eigen::VectorXd& a, const Eigen::VectorXd& b, ObjectSet& touched) {
+  hold(phase == Phase::leave || phase == Phase::carry);
+  checker_.check_edge(a, b, ObjectSet(), avoided_, report_);
+  for (ObjectId id : report_.touched) touched.insert(id);
+}
+
 double Legs::tilt(const Eigen::VectorXd& q) const {
   return std::acos(std::clamp((around_.kinematics->tip_pose(q).linear() * up_T_).z(), -1.0, 1.0));
 }

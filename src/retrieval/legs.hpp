@@ -49,6 +49,8 @@ class Legs {
   bool free(Phase phase, const std::vector<Eigen::VectorXd>& path);
   /// Number of points that can be reached one after the other; at least 1 if the first one is free, else 0.
   std::size_t free_points(Phase phase, const std::vector<Eigen::VectorXd>& path);
+  /// Adds to `touched` those of the obstacles and immovables that the motion touches.
+  void collect(Phase phase, const Eigen::VectorXd& a, const Eigen::VectorXd& b, ObjectSet& touched);
   /// How far the held object would be tilted against its stand (rad).
   double tilt(const Eigen::VectorXd& q) const;
 

@@ -34,6 +34,7 @@ class Call {
       if (stopped()) return std::move(out_);
       by_search(blocked[k]);
     }
+    if (!out_.path && stopped()) return std::move(out_);
     out_.exhausted = !out_.path && first <= 0 && blocked.empty();
     return std::move(out_);
   }
@@ -71,6 +72,7 @@ class Call {
     legs_.grip(set_.candidates[static_cast<std::size_t>(c)].reach.back());
     WayHome way = known;
     way.known = false;
+    way.approach.clear();
     way.path.resize(known.line_end + 1);
     way.path.resize(std::max<std::size_t>(legs_.free_points(Phase::carry, way.path), 1));
     way.line_end = way.path.size() - 1;
@@ -95,11 +97,12 @@ class Call {
     RetrievalPath path;
     path.grasp = c;
     path.reach = candidate.reach;
-    path.approach = approach_of(set_, legs_, way, candidate.reach.front());
-    if (path.approach.empty())
-      path.approach = legs_.search(Phase::approach, set_.around.problem.q_start, {candidate.reach.front()},
-                                   RandomStream(set_.seed, {kApproachKey, static_cast<std::uint64_t>(c)}),
-                                   {set_.options.max_nodes}, stop_);
+    if (!way.approach.empty() && legs_.free(Phase::approach, way.approach))
+      path.approach = way.approach;
+    else
+      path.approach = retrieval::find_approach(set_, legs_, way, candidate.reach.front(),
+                                               RandomStream(set_.seed, {kApproachKey, static_cast<std::uint64_t>(c)}),
+                                               {set_.options.max_nodes}, stop_);
     if (path.approach.empty()) {
       ++out_.failures["no_approach"];
       return false;

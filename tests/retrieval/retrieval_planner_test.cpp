@@ -127,6 +127,42 @@ TEST_P(RetrievalOnShelf, TheSameCallGivesTheSamePathWhateverTheWorkerDidBefore) 
   }
 }
 
+TEST_P(RetrievalOnShelf, TheLeastObstructedCandidatesTouchAsManyObjectsAsIsSaid) {
+  using Obstruction = RetrievalPlanner::Obstruction;
+  const auto least = [&](int count) {
+    return setup.planner.least_obstructed(setup.checker, setup.state, setup.movables, count);
+  };
+  const std::vector<Obstruction> all = least(1000), few = least(3);
+  ASSERT_GE(all.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(few[k].grasp, all[k].grasp);
+    EXPECT_EQ(few[k].objects, all[k].objects);
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(all, {}, [](const Obstruction& o) { return std::pair(o.objects, o.grasp); }));
+  const ObjectId target = std::get<Retrieve>(setup.problem.task).object;
+  for (const Obstruction& o : {all.front(), all[all.size() / 2], all.back()}) {
+    const RetrievalOutcome outcome = setup.plan(setup.nothing, o.grasp);
+    ASSERT_TRUE(outcome.path);
+    ASSERT_EQ(outcome.path->grasp, o.grasp);
+    std::set<ObjectId> sure, perhaps;
+    for (auto& [padding, touched] : {std::pair(0.0, &sure), std::pair(0.006, &perhaps)}) {
+      BruteForce brute(setup.problem.robot, setup.problem.scene, padding);
+      for (const auto* leg : {&outcome.path->approach, &outcome.path->reach, &outcome.path->extract}) {
+        if (leg == &outcome.path->extract) {
+          brute.held = target;
+          brute.held_by = setup.problem.robot.group.tip;
+          brute.X_LHeld = setup.grasp_of(*outcome.path).X_TO;
+        }
+        for (const Eigen::VectorXd& q : subdivided(*leg, 0.02))
+          for (ObjectId id : brute.touched(q))
+            if (setup.problem.scene[id].movable()) touched->insert(id);
+      }
+    }
+    EXPECT_LE(sure.size(), static_cast<std::size_t>(o.objects));
+    EXPECT_GE(perhaps.size(), static_cast<std::size_t>(o.objects));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RetrievalOnShelf, testing::Range(1, 7));
 
 TEST(Retrieval, AWalledInTargetIsGivenUpAtOnceAndTheWallIsNamed) {

@@ -9,7 +9,7 @@ namespace mamo::test {
 
 inline std::string shared_data() {
   if (const char* folder = std::getenv("MAMO_SHARED_DATA")) return folder;
-  return std::string(MAMO_SOURCE_DIR) + "/../shared/data";
+  return MAMO_SOURCE_DIR "/../shared/data";
 }
 
 }  // namespace mamo::test
