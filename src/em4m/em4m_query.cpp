@@ -13,10 +13,14 @@ Em4mQuery::Em4mQuery(const Em4mVariant& variant, const Problem& problem, const P
       settings_(settings) {}
 
 void Em4mQuery::search() {
+  const WorldState start = WorldState::start_of(scene());
+  if (try_retrievals({}, start, retrieve(start, all_movables(), 0, WorkerId(0)), [](const Verdict&) { return true; }) !=
+      Submitted::rejected)
+    return;
   regions_ = negative_goal_regions();
   for (int r = 0; r < static_cast<int>(regions_.size()); ++r) {
-    Vertex& root = add_vertex(r, nullptr, {}, WorldState::start_of(scene()));
-    root.retrieval_tried = r > 0;  // the same rearrangement: asked once
+    Vertex& root = add_vertex(r, nullptr, {}, start);
+    root.retrieval_tried = true;
     open(root);
   }
   while (!over() && !open_.empty()) {
@@ -127,18 +131,10 @@ bool Em4mQuery::done(Vertex& vertex) {
   board().finish(vertex.retrieval_job);
   std::vector<Step> pushes;
   for (const Vertex* v : chain_of(vertex)) pushes.push_back({v->step.object, v->step.push});
-  RetrievalOutcome outcome = std::move(*vertex.retrieval);
-  for (int rejected = 0; rejected < settings_.rearrangement.rejections && !refuted(vertex); ++rejected) {
-    if (outcome.stopped) return stopped(), true;
-    count_failures(outcome.failures, "retrieval_");
-    if (!outcome.path) return false;
-    Verdict verdict;
-    if (submit(pushes, *outcome.path, verdict) != Submitted::rejected) return true;
-    learn(verdict, vertex);
-    if (rejected + 1 < settings_.rearrangement.rejections && !refuted(vertex))
-      outcome = retrieve(vertex.state, all_movables(), outcome.path->grasp + 1, WorkerId(0));
-  }
-  return false;
+  return try_retrievals(pushes, vertex.state, std::move(*vertex.retrieval), [&](const Verdict& verdict) {
+           learn(verdict, vertex);
+           return !refuted(vertex);
+         }) != Submitted::rejected;
 }
 
 void Em4mQuery::learn(const Verdict& verdict, Vertex& vertex) {

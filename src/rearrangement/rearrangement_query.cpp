@@ -74,6 +74,21 @@ RearrangementQuery::Submitted RearrangementQuery::submit(const std::vector<Step>
   return finish(PlanStatus::solved, ""), Submitted::accepted;
 }
 
+RearrangementQuery::Submitted RearrangementQuery::try_retrievals(const std::vector<Step>& pushes,
+                                                                 const WorldState& state, RetrievalOutcome outcome,
+                                                                 const std::function<bool(const Verdict&)>& learn) {
+  for (int rejected = 0;; ++rejected) {
+    if (outcome.stopped) return stopped(), Submitted::ended;
+    count_failures(outcome.failures, "retrieval_");
+    if (!outcome.path) return Submitted::rejected;
+    Verdict verdict;
+    const Submitted submitted = submit(pushes, *outcome.path, verdict);
+    if (submitted != Submitted::rejected) return submitted;
+    if (!learn(verdict) || rejected + 1 == settings_.rejections) return Submitted::rejected;
+    outcome = retrieve(state, all_movables_, outcome.path->grasp + 1, WorkerId(0));
+  }
+}
+
 RetrievalOutcome RearrangementQuery::retrieve(const WorldState& state, const ObjectSet& obstacles, int first_grasp,
                                               WorkerId worker) {
   return retrievals_->plan(workers_[worker.index()]->collision(), state, obstacles, first_grasp, context_.stop);
@@ -91,8 +106,9 @@ std::vector<VoxelVolume> RearrangementQuery::negative_goal_regions() {
   std::deque<Region> found;
   std::map<std::string, std::int64_t> failures;
   bool exhausted = true;
-  for (int first = 0; static_cast<int>(found.size()) < settings_.regions;) {
-    RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), first, WorkerId(0));
+  for (const auto& [grasp, objects] :
+       retrievals_->least_obstructed(workers_.front()->collision(), start, all_movables_, settings_.regions)) {
+    RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), grasp, WorkerId(0));
     if (outcome.stopped) {
       for (Region& region : found) board_.finish(region.job);
       return stopped(), std::vector<VoxelVolume>{};
@@ -100,9 +116,8 @@ std::vector<VoxelVolume> RearrangementQuery::negative_goal_regions() {
     if (!outcome.path) {
       failures = outcome.failures;
       exhausted = outcome.exhausted;
-      break;
+      continue;
     }
-    first = outcome.path->grasp + 1;
     Region& region = found.emplace_back();
     region.path = *std::move(outcome.path);
     // One worker sweeps a volume while another looks for the next retrieval.

@@ -2,6 +2,7 @@
 // shared; negative goal regions; whole plans put before the judge; how it ends.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,8 +55,13 @@ class RearrangementQuery {
   /// Puts the whole plan before the judge. accepted: the query is over, solved. ended: over, stopped.
   Submitted submit(const std::vector<Step>& pushes, const RetrievalPath& retrieval, Verdict& verdict);
 
-  /// Retrievals without movables by different grasps: their volumes, the least obstructed at the start first (fewer
-  /// movables, then less of them). Empty: there is none, and the query is over.
+  /// Puts `first` and, while the judge rejects and learn() says that it makes sense, the retrievals by later grasps
+  /// before the judge, `rejections` at most. rejected: none was accepted, or there was none.
+  Submitted try_retrievals(const std::vector<Step>& pushes, const WorldState& state, RetrievalOutcome first,
+                           const std::function<bool(const Verdict&)>& learn);
+
+  /// Retrievals without movables by the least obstructed grasps: their volumes, the least obstructed at the start first
+  /// (fewer movables, then less of them). Empty: there is none, and the query is over.
   std::vector<VoxelVolume> negative_goal_regions();
   RetrievalOutcome retrieve(const WorldState& state, const ObjectSet& obstacles, int first_grasp, WorkerId worker);
 
