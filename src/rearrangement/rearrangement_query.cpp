@@ -25,8 +25,10 @@ void RearrangementQuery::prepare() {
   executor_ = std::make_unique<Executor>(std::max(1, options_.threads));
   for (int w = 0; w < executor_->workers(); ++w)
     workers_.push_back(std::make_unique<PushPlanner>(problem_, kinematics_, settings_.push, options_.seed));
+  std::vector<CollisionChecker*> checkers;
+  for (const auto& worker : workers_) checkers.push_back(&worker->collision());
   retrievals_ = std::make_unique<RetrievalPlanner>(problem_, kinematics_, settings_.retrieval, options_.seed,
-                                                   workers_.front()->collision());
+                                                   *executor_, checkers);
   path_finder_ = std::make_unique<ObjectPathFinder>(problem_, target_, settings_.paths);
 }
 

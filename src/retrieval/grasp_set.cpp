@@ -1,6 +1,7 @@
 #include "retrieval/grasp_set.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numbers>
 
 #include "retrieval/grasp_poses.hpp"
@@ -20,38 +21,25 @@ constexpr int kFirstFailures = 16;  // and so does, once so many searches have f
 constexpr int kLastNodes = 4;       // times the budget of a call, where no way home was found at all
 constexpr std::size_t kJoined = 8;  // ways that another may join, the latest ones
 
-/// Makes the candidates one after the other.
-class Builder {
+/// What came of one grasp pose: candidates with the beginning of their ways home, and why others are none.
+struct Tried {
+  std::vector<GraspCandidate> candidates;
+  std::vector<WayHome> ways;
+  std::vector<std::string> rejected;
+};
+
+/// Looks at one grasp pose at a time. One per worker; what it finds depends on the pose only.
+class Grasper {
  public:
-  Builder(GraspSet& set, CollisionChecker& checker)
+  Grasper(const GraspSet& set, CollisionChecker& checker)
       : set_(set),
         around_(set.around),
         ik_(*around_.kinematics),
         legs_(around_, checker, WorldState::start_of(around_.problem.scene), ObjectSet(around_.problem.scene.size())),
         space_(object_space(around_.problem.scene)) {}
 
-  void run() {
-    connect_start();
-    const std::vector<GraspPose> poses =
-        grasp_poses(around_.problem.scene[around_.task().object], around_.task().X_WT_pregrasp, set_.options.grasps);
-    for (std::size_t g = 0; g < poses.size(); ++g) add(poses[g], g);
-    for (std::size_t c = 0; c < set_.ways.size() && known_.empty(); ++c)
-      find_way(c, {kLastNodes * set_.options.max_nodes});
-  }
-
- private:
-  void reject(const std::string& cause) { ++set_.rejected[cause]; }
-
-  void connect_start() {
-    const Eigen::VectorXd &start = around_.problem.q_start, &home = around_.task().home;
-    if (start == home)
-      set_.from_start = {start};
-    else
-      set_.from_start = legs_.search(Phase::approach, start, {home}, RandomStream(set_.seed, {kStartKey}),
-                                     {kLastNodes * set_.options.max_nodes}, nullptr);
-  }
-
-  void add(const GraspPose& pose, std::size_t g) {
+  Tried look_at(const GraspPose& pose, std::size_t g) {
+    Tried tried;
     std::string cause = "grasp_without_ik";
     const auto accept = [&](const Eigen::VectorXd& q) {
       if (legs_.free(Phase::reach, q)) return true;
@@ -60,15 +48,17 @@ class Builder {
     };
     const std::vector<Eigen::VectorXd> solutions = ik_.solve_many(
         pose.X_WT, around_.task().home, hash_combine(mix64(set_.seed ^ kIkKey), g), set_.options.solutions, {}, accept);
-    if (solutions.empty()) reject(cause);
+    if (solutions.empty()) tried.rejected.push_back(cause);
     for (const Eigen::VectorXd& q : solutions) {
-      cause = add(pose, q);
-      if (!cause.empty()) reject(cause);
+      cause = add(pose, q, tried);
+      if (!cause.empty()) tried.rejected.push_back(cause);
     }
+    return tried;
   }
 
+ private:
   /// Empty: a candidate was added; else why not.
-  std::string add(const GraspPose& pose, const Eigen::VectorXd& q) {
+  std::string add(const GraspPose& pose, const Eigen::VectorXd& q, Tried& tried) {
     const Eigen::Isometry3d X_WT = around_.kinematics->tip_pose(q);
     const Eigen::Vector3d out = pose.X_WT_pregrasp.translation() - pose.X_WT.translation();
     GraspCandidate candidate;
@@ -83,9 +73,8 @@ class Builder {
     if (std::string cause = lift(candidate, X_WT); !cause.empty()) return cause;
     WayHome way;
     line_back(candidate, out, way);
-    set_.candidates.push_back(std::move(candidate));
-    set_.ways.push_back(std::move(way));
-    if (!find_way(set_.ways.size() - 1, {failed_ < kFirstFailures ? kFirstNodes : 0})) ++failed_;
+    tried.candidates.push_back(std::move(candidate));
+    tried.ways.push_back(std::move(way));
     return {};
   }
 
@@ -102,19 +91,6 @@ class Builder {
     candidate.lift = std::move(line);
     if (!legs_.free(Phase::carry, candidate.lift.back())) return "lift_in_collision: " + legs_.hit();
     return {};
-  }
-
-  bool find_way(std::size_t c, const JointPathOptions& options) {
-    legs_.grip(set_.candidates[c].reach.back());
-    std::vector<Suffix> others;
-    for (std::size_t k = known_.size(); k-- > 0 && others.size() < kJoined;)
-      others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
-    if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
-      known_.push_back(c);
-    if (set_.ways[c].known)
-      set_.ways[c].approach = find_approach(set_, legs_, set_.ways[c], set_.candidates[c].reach.front(),
-                                            RandomStream(set_.seed, {kApproachKey, c}), options, nullptr);
-    return set_.ways[c].known;
   }
 
   /// From lifted back above the pre-grasp pose, and on until the tip is outside where objects can be.
@@ -147,11 +123,55 @@ class Builder {
     return length * direction;
   }
 
-  GraspSet& set_;
+  const GraspSet& set_;
   const Surroundings& around_;
   InverseKinematics ik_;
   Legs legs_;
   Eigen::AlignedBox3d space_;
+};
+
+/// Connects candidates with home one after the other: a way may join the ways before it.
+class WayFinder {
+ public:
+  WayFinder(GraspSet& set, CollisionChecker& checker)
+      : set_(set),
+        around_(set.around),
+        legs_(around_, checker, WorldState::start_of(around_.problem.scene), ObjectSet(around_.problem.scene.size())) {}
+
+  void run() {
+    connect_start();
+    for (std::size_t c = 0; c < set_.ways.size(); ++c)
+      if (!find_way(c, {failed_ < kFirstFailures ? kFirstNodes : 0})) ++failed_;
+    for (std::size_t c = 0; c < set_.ways.size() && known_.empty(); ++c)
+      find_way(c, {kLastNodes * set_.options.max_nodes});
+  }
+
+ private:
+  void connect_start() {
+    const Eigen::VectorXd &start = around_.problem.q_start, &home = around_.task().home;
+    if (start == home)
+      set_.from_start = {start};
+    else
+      set_.from_start = legs_.search(Phase::approach, start, {home}, RandomStream(set_.seed, {kStartKey}),
+                                     {kLastNodes * set_.options.max_nodes}, nullptr);
+  }
+
+  bool find_way(std::size_t c, const JointPathOptions& options) {
+    legs_.grip(set_.candidates[c].reach.back());
+    std::vector<Suffix> others;
+    for (std::size_t k = known_.size(); k-- > 0 && others.size() < kJoined;)
+      others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
+    if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
+      known_.push_back(c);
+    if (set_.ways[c].known)
+      set_.ways[c].approach = find_approach(set_, legs_, set_.ways[c], set_.candidates[c].reach.front(),
+                                            RandomStream(set_.seed, {kApproachKey, c}), options, nullptr);
+    return set_.ways[c].known;
+  }
+
+  GraspSet& set_;
+  const Surroundings& around_;
+  Legs legs_;
   std::vector<std::size_t> known_;  // candidates with a way home
   int failed_ = 0;                  // candidates without
 };
@@ -159,11 +179,25 @@ class Builder {
 }  // namespace
 
 GraspSet::GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
-                   const RetrievalOptions& options_in, std::uint64_t seed_in, CollisionChecker& checker)
+                   const RetrievalOptions& options_in, std::uint64_t seed_in, Executor& executor,
+                   const std::vector<CollisionChecker*>& checkers)
     : around(problem, std::move(kinematics), options_in.max_object_tilt_deg * std::numbers::pi / 180),
       options(options_in),
       seed(seed_in) {
-  Builder(*this, checker).run();
+  const std::vector<GraspPose> poses =
+      grasp_poses(problem.scene[around.task().object], around.task().X_WT_pregrasp, options.grasps);
+  std::vector<Tried> tried(poses.size());
+  std::atomic<std::size_t> next{0};
+  executor.run([&](WorkerId worker) {
+    Grasper grasper(*this, *checkers[worker.index()]);
+    for (std::size_t g = next++; g < poses.size(); g = next++) tried[g] = grasper.look_at(poses[g], g);
+  });
+  for (Tried& t : tried) {
+    std::ranges::move(t.candidates, std::back_inserter(candidates));
+    std::ranges::move(t.ways, std::back_inserter(ways));
+    for (const std::string& cause : t.rejected) ++rejected[cause];
+  }
+  WayFinder(*this, *checkers.front()).run();
 }
 
 bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vector<Suffix>& others, RandomStream random,

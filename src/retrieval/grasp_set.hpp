@@ -9,6 +9,7 @@
 
 #include "retrieval/legs.hpp"
 
+#include "mamo/common/executor.hpp"
 #include "mamo/retrieval/retrieval_planner.hpp"
 
 namespace mamo::retrieval {
@@ -25,7 +26,8 @@ struct WayHome {
 
 struct GraspSet {
   GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
-           const RetrievalOptions& options_in, std::uint64_t seed_in, CollisionChecker& checker);
+           const RetrievalOptions& options_in, std::uint64_t seed_in, Executor& executor,
+           const std::vector<CollisionChecker*>& checkers);
 
   Surroundings around;
   RetrievalOptions options;

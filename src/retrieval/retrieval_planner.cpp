@@ -122,9 +122,18 @@ class Call {
 }  // namespace
 
 RetrievalPlanner::RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+                                   const RetrievalOptions& options, std::uint64_t seed, Executor& executor,
+                                   const std::vector<CollisionChecker*>& checkers) {
+  if (!std::holds_alternative<Retrieve>(problem.task)) throw std::invalid_argument("the task is not to retrieve");
+  grasps_ = std::make_shared<const GraspSet>(problem, std::move(kinematics), options, seed, executor, checkers);
+}
+
+RetrievalPlanner::RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
                                    const RetrievalOptions& options, std::uint64_t seed, CollisionChecker& checker) {
   if (!std::holds_alternative<Retrieve>(problem.task)) throw std::invalid_argument("the task is not to retrieve");
-  grasps_ = std::make_shared<const GraspSet>(problem, std::move(kinematics), options, seed, checker);
+  Executor alone(1);
+  grasps_ = std::make_shared<const GraspSet>(problem, std::move(kinematics), options, seed, alone,
+                                             std::vector<CollisionChecker*>{&checker});
 }
 
 const std::vector<GraspCandidate>& RetrievalPlanner::candidates() const { return grasps_->candidates; }

@@ -13,6 +13,7 @@
 
 #include "mamo/collision/collision_checker.hpp"
 #include "mamo/collision/voxel_volume.hpp"
+#include "mamo/common/executor.hpp"
 #include "mamo/common/stop.hpp"
 #include "mamo/lattice/joint_path.hpp"
 #include "mamo/model/problem.hpp"
@@ -59,7 +60,12 @@ struct RetrievalOutcome {
 /// Immutable after construction: grasps are drawn once per problem, one instance serves every worker.
 class RetrievalPlanner {
  public:
-  /// The problem's task must be Retrieve. `checker` is used during construction only.
+  /// The problem's task must be Retrieve. `executor` and `checkers`, one per worker, are used during construction only;
+  /// the result is the same for any number of workers.
+  RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
+                   const RetrievalOptions& options, std::uint64_t seed, Executor& executor,
+                   const std::vector<CollisionChecker*>& checkers);
+  /// On this thread alone.
   RetrievalPlanner(const Problem& problem, std::shared_ptr<const ForwardKinematics> kinematics,
                    const RetrievalOptions& options, std::uint64_t seed, CollisionChecker& checker);
 
