@@ -82,8 +82,8 @@ class Drawing {
   std::string svg() {
     const double height = kHeight + kLegendRow * static_cast<double>(chart_.series.size());
     text_ = "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
-            "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n" +
-            "<style>" + kStyle + "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
+            "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n" + "<style>" + kStyle +
+            "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
     text_at(kLeft, 22, chart_.title, "start", "title");
     axes();
     for (std::size_t i = 0; i < chart_.series.size(); ++i) draw(chart_.series[i], i);

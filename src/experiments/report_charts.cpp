@@ -57,8 +57,10 @@ Chart success_chart(const SuiteRecords& suite, const std::function<int(const Rec
   const auto lines = lines_of(suite);
   Chart chart;
   chart.y_label = "solved (share of all)";
-  chart.caption = "Higher is better: of all problems of a setting, the share with a plan that an independent replay "
-                  "confirmed. " + caption_of(lines);
+  chart.caption =
+      "Higher is better: of all problems of a setting, the share with a plan that an independent replay "
+      "confirmed. " +
+      caption_of(lines);
   for (const auto& [name, runs] : lines) {
     std::map<int, Runs> at;
     for (const Record* r : runs) at[x(*r)].push_back(r);
@@ -154,8 +156,10 @@ std::vector<Chart> charts_of(const SuiteRecords& suite) {
   cactus.name = suite.name + "-cactus";
   cactus.title = "Share solved within a time";
   cactus.x_label = "planning and verification (s)";
-  cactus.caption = "Further left and higher is better: at a time, the curve is the share of all problems solved by then; "
-                   "where it ends, the time limit had come. " + caption_of(lines_of(suite));
+  cactus.caption =
+      "Further left and higher is better: at a time, the curve is the share of all problems solved by then; "
+      "where it ends, the time limit had come. " +
+      caption_of(lines_of(suite));
   charts.push_back(std::move(cactus));
   return charts;
 }

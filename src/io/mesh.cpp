@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "io/convex_hull.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::io {

@@ -64,7 +64,8 @@ NoteItem read_item(const Input& json, const Scene& scene) {
   NoteItem item;
   item.text = text(json, "text");
   item.object = scene.find(text(json, "object"));
-  item.iteration = static_cast<int>(number(json, "iteration", -1));
+  if (const auto found = json.find("iteration"); found != json.end() && found->is_number_integer())
+    item.iteration = found->get<int>();
   Eigen::Vector3d p;
   for (const Input& entry : list(json, "points"))
     if (read_point(entry, p)) item.points.push_back(p);

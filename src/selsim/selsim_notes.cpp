@@ -5,9 +5,9 @@
 namespace mamo {
 namespace {
 
-constexpr int kTipPoints = 12;     // along a refuted motion
-constexpr double kSlice = 0.04;    // m, cells of the slice through the heuristic
-constexpr double kReach = 1.4;     // m, to each side of the goal
+constexpr int kTipPoints = 12;   // along a refuted motion
+constexpr double kSlice = 0.04;  // m, cells of the slice through the heuristic
+constexpr double kReach = 1.4;   // m, to each side of the goal
 
 std::string name_of(const Scene& scene, ObjectId id) {
   return id == kRobot ? "the robot" : id.valid() ? scene[id].id : "";
@@ -23,8 +23,9 @@ std::string cause(const Scene& scene, const Violation& v) {
 NoteLayer grid_slice(const Problem& problem, const LatticeModel& model) {
   NoteLayer layer;
   layer.name = "heuristic";
-  layer.about = "Steps of the grid heuristic to the goal, at the goal's height: blue is near, red is far, nothing is "
-                "walled off or out of reach.";
+  layer.about =
+      "Steps of the grid heuristic to the goal, at the goal's height: blue is near, red is far, nothing is "
+      "walled off or out of reach.";
   Eigen::Vector3d goal = model.kinematics().tip_pose(problem.q_start).translation();
   if (const auto* reach = std::get_if<ReachPose>(&problem.task)) goal = reach->X_WT.translation();
   if (const auto* joints = std::get_if<ReachJoints>(&problem.task))
@@ -66,15 +67,16 @@ PlanningNotes SelSimNotes::take(const Problem& problem, const LatticeModel& mode
   NoteLayer relevant{"relevant objects",
                      "Which object each planning iteration made known, and from which violation: the line leads from "
                      "the object that broke a constraint to the one that became relevant.",
-                     {}, {}};
+                     {},
+                     {}};
   NoteLayer motions{"failed motions", "The motions of found paths that the replay with every object refuted.", {}, {}};
   for (const Refuted& entry : refuted_) {
     const auto centre = [&](ObjectId id) { return Eigen::Vector3d(entry.state.X_WO(id) * scene[id].centre_of_mass()); };
     const ObjectId broke = entry.violation.object;
     motions.items.push_back({cause(scene, entry.violation), entry.tip, broke, entry.iteration});
     if (!entry.became.valid()) continue;
-    NoteItem item{scene[entry.became].id + ", because of " + cause(scene, entry.violation), {}, entry.became,
-                  entry.iteration};
+    NoteItem item{
+        scene[entry.became].id + ", because of " + cause(scene, entry.violation), {}, entry.became, entry.iteration};
     if (broke.valid() && broke != entry.became && !scene[broke].fixture()) item.points.push_back(centre(broke));
     item.points.push_back(centre(entry.became));
     relevant.items.push_back(std::move(item));

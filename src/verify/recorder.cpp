@@ -24,8 +24,7 @@ Recorder::Recorder(const Scene& scene, Recording& recording)
   }
 }
 
-void Recorder::note(const World& world, const std::vector<Contact>& contacts, double time_s,
-                    const Eigen::VectorXd& q) {
+void Recorder::note(const World& world, const std::vector<Contact>& contacts, double time_s, const Eigen::VectorXd& q) {
   time_s_ = time_s;
   q_ = q;
   look(world);
@@ -87,9 +86,8 @@ void Recorder::finish() {
   if (since_ > 0) sample();
   for (const Now& now : objects_)
     if (!now.moved) out_.tracks.erase(now.id);
-  std::sort(out_.contacts.begin(), out_.contacts.end(), [](const auto& x, const auto& y) {
-    return std::tie(x.begin_s, x.a, x.b) < std::tie(y.begin_s, y.a, y.b);
-  });
+  std::sort(out_.contacts.begin(), out_.contacts.end(),
+            [](const auto& x, const auto& y) { return std::tie(x.begin_s, x.a, x.b) < std::tie(y.begin_s, y.a, y.b); });
 }
 
 }  // namespace mamo::verify

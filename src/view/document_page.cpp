@@ -1,8 +1,7 @@
-#include "mamo/view/page.hpp"
-
 #include "view/embedded.hpp"
 #include "view/page_template.hpp"
 
+#include "mamo/view/page.hpp"
 #include "mamo/view/svg.hpp"
 
 namespace mamo::view {

@@ -28,8 +28,9 @@ Json surface(const TriangleMesh& mesh) {
       put(points, static_cast<std::uint16_t>(std::lround((p[i] - box.min()[i]) / size[i] * 65535)));
   const bool wide = mesh.vertices.size() > 65535;
   for (const auto& triangle : mesh.triangles)
-    for (int v : triangle) wide ? put(corners, static_cast<std::uint32_t>(v)) : put(corners, static_cast<std::uint16_t>(v));
-  return {{"type", "mesh"},         {"low", point_json(box.min())}, {"size", point_json(size)},
+    for (int v : triangle)
+      wide ? put(corners, static_cast<std::uint32_t>(v)) : put(corners, static_cast<std::uint16_t>(v));
+  return {{"type", "mesh"},           {"low", point_json(box.min())}, {"size", point_json(size)},
           {"points", base64(points)}, {"corners", base64(corners)},   {"wide", wide}};
 }
 
@@ -40,7 +41,8 @@ Json point_json(const Eigen::Vector3d& p) { return {rounded(p.x()), rounded(p.y(
 Json pose_json(const Eigen::Isometry3d& X) {
   const Eigen::Quaterniond q(X.linear());
   const Eigen::Vector3d& p = X.translation();
-  return {rounded(p.x()), rounded(p.y()), rounded(p.z()), rounded(q.x()), rounded(q.y()), rounded(q.z()), rounded(q.w())};
+  return {rounded(p.x()), rounded(p.y()), rounded(p.z()), rounded(q.x()),
+          rounded(q.y()), rounded(q.z()), rounded(q.w())};
 }
 
 std::size_t GeometryTable::put(Json entry) {

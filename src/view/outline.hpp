@@ -1,9 +1,8 @@
 // What a shape covers seen from above.
 #pragma once
 
-#include "mamo/view/svg.hpp"
-
 #include "mamo/model/shape.hpp"
+#include "mamo/view/svg.hpp"
 
 namespace mamo::view {
 

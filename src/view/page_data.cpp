@@ -95,8 +95,8 @@ Json track_json(const Recording::Track& track) {
     Eigen::Quaterniond q(X.linear());
     if (q.dot(last) < 0) q.coeffs() = -q.coeffs();
     last = q;
-    const std::array<double, 7> row = {X.translation().x(), X.translation().y(), X.translation().z(), q.x(), q.y(),
-                                       q.z(),               q.w()};
+    const std::array<double, 7> row = {
+        X.translation().x(), X.translation().y(), X.translation().z(), q.x(), q.y(), q.z(), q.w()};
     for (std::size_t i = 0; i < 7; ++i) columns[i].push_back(row[i]);
   }
   Json out{{"pose", Json::array()}, {"tilt", series(track.tilt, 1e-4)}, {"speed", series(track.speed, 1e-4)}};
@@ -197,7 +197,8 @@ Json outcome_json(const Stage& stage) {
   const bool planned = result && !result->plan.empty();
   Json out{{"kind", "problem"}, {"headline", "problem"}, {"reason", ""}};
   if (result && result->status != PlanStatus::solved && !planned)
-    out = {{"kind", "failed"}, {"headline", "no plan: " + std::string(to_string(result->status))},
+    out = {{"kind", "failed"},
+           {"headline", "no plan: " + std::string(to_string(result->status))},
            {"reason", result->reason}};
   if (planned && verdict)
     out = {{"kind", verdict->ok ? "holds" : "failed"},

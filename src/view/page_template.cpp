@@ -8,7 +8,7 @@
 namespace mamo::view {
 namespace {
 
-std::string variables(std::string_view Colour::* shade) {
+std::string variables(std::string_view Colour::*shade) {
   std::string out;
   for (const Colour& colour : kPalette) out += "--" + std::string(colour.name) + ":" + std::string(colour.*shade) + ";";
   return out;

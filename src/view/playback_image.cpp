@@ -9,10 +9,10 @@
 namespace mamo::view {
 namespace {
 
-constexpr int kFiner = 2;            // samples per pixel and direction
-constexpr int kShadowSize = 2048;    // px
+constexpr int kFiner = 2;             // samples per pixel and direction
+constexpr int kShadowSize = 2048;     // px
 constexpr double kShadowBias = 4e-3;  // m
-constexpr float kLine = 0.45f;       // how much of the colour is left where bodies meet
+constexpr float kLine = 0.45f;        // how much of the colour is left where bodies meet
 
 const Eigen::Vector3d kSun = Eigen::Vector3d(0.9, 1.1, -2.6).normalized();  // where its light goes
 
@@ -79,8 +79,8 @@ class Image {
       for (int dy = -2; dy <= 2; ++dy) {
         const int u = x + dx, v = y + dy;
         const bool inside = u >= 0 && v >= 0 && u < kShadowSize && v < kShadowSize;
-        lit += !inside || at.z() - kShadowBias <
-                              shadow_[static_cast<std::size_t>(v) * kShadowSize + static_cast<std::size_t>(u)];
+        lit += !inside ||
+               at.z() - kShadowBias < shadow_[static_cast<std::size_t>(v) * kShadowSize + static_cast<std::size_t>(u)];
       }
     return static_cast<float>(lit) / 25.0f;
   }
@@ -89,8 +89,8 @@ class Image {
     if (s.finish == Finish::plain) return s.colour;
     const float sun = static_cast<float>(std::max(0.0, -normal.dot(kSun))) * sunlight(p, normal);
     const float sky = 0.5f + 0.5f * static_cast<float>(normal.z());
-    Eigen::Vector3f light = Eigen::Vector3f::Constant(0.62f * sun) +
-                            (sky * Eigen::Vector3f(0.52f, 0.53f, 0.55f) + (1 - sky) * Eigen::Vector3f(0.26f, 0.25f, 0.23f));
+    Eigen::Vector3f light = Eigen::Vector3f::Constant(0.62f * sun) + (sky * Eigen::Vector3f(0.52f, 0.53f, 0.55f) +
+                                                                      (1 - sky) * Eigen::Vector3f(0.26f, 0.25f, 0.23f));
     Eigen::Vector3f rgb = s.colour.cwiseProduct(light);
     if (s.finish != Finish::floor) return rgb;
     const auto line = [](double v) { return std::abs(v / 0.2 - std::round(v / 0.2)) * 0.2 < 0.0018; };

@@ -1,9 +1,9 @@
-#include "mamo/view/playback.hpp"
-
 #include "view/embedded.hpp"
 #include "view/page_data.hpp"
 #include "view/page_template.hpp"
 #include "view/stage.hpp"
+
+#include "mamo/view/playback.hpp"
 #include "mamo/view/svg.hpp"
 
 namespace mamo::view {

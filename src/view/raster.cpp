@@ -1,8 +1,7 @@
 #include "view/raster.hpp"
 
-#include <png.h>
-
 #include <Eigen/Geometry>
+#include <png.h>
 
 #include <string>
 

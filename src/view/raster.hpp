@@ -45,7 +45,8 @@ void rasterise(const Projection& projection, const std::array<Eigen::Vector3d, 3
     if (wa >= 0) polygon[static_cast<std::size_t>(count++)] = a;
     if ((wa >= 0) == (wb >= 0)) continue;
     const double s = wa / (wa - wb);
-    polygon[static_cast<std::size_t>(count++)] = {a.clip + s * (b.clip - a.clip), a.weights + s * (b.weights - a.weights)};
+    polygon[static_cast<std::size_t>(count++)] = {a.clip + s * (b.clip - a.clip),
+                                                  a.weights + s * (b.weights - a.weights)};
   }
   for (int k = 2; k < count; ++k) {
     const std::array<const Vertex*, 3> v = {&polygon[0], &polygon[static_cast<std::size_t>(k - 1)],

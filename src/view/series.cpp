@@ -11,7 +11,9 @@ void put(std::vector<std::uint8_t>& out, std::uint64_t value) {
 }
 
 /// 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
-std::uint64_t zigzag(std::int64_t v) { return (static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63); }
+std::uint64_t zigzag(std::int64_t v) {
+  return (static_cast<std::uint64_t>(v) << 1) ^ static_cast<std::uint64_t>(v >> 63);
+}
 
 }  // namespace
 
@@ -22,8 +24,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? bytes[i + k] : std::uint8_t{0}; };
     const std::uint32_t word = (std::uint32_t{byte(0)} << 16) | (std::uint32_t{byte(1)} << 8) | byte(2);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += k <= bytes.size() - i ? kDigits[(word >> (18 - 6 * k)) & 63] : '=';
+    for (std::size_t k = 0; k < 4; ++k) out += k <= bytes.size() - i ? kDigits[(word >> (18 - 6 * k)) & 63] : '=';
   }
   return out;
 }

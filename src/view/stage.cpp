@@ -59,12 +59,12 @@ Stage::Stage(const Playback& playback)
     if (playback_.recording)
       for (const Recording::Contact& c : playback_.recording->contacts)
         shown.touched = shown.touched || c.a == shown.id || c.b == shown.id;
-    shown.role = object.fixture()        ? "fixture"
-                 : shown.id == target_   ? "target"
-                 : !object.movable()     ? "immovable"
-                 : moved(shown.id)       ? "moved"
-                 : shown.relevant > 0    ? "relevant"
-                                         : "movable";
+    shown.role = object.fixture()      ? "fixture"
+                 : shown.id == target_ ? "target"
+                 : !object.movable()   ? "immovable"
+                 : moved(shown.id)     ? "moved"
+                 : shown.relevant > 0  ? "relevant"
+                                       : "movable";
     shown.see_through = object.fixture() && (object.constraints.touch != Touch::support ||
                                              bounds_of(object, object.X_WO).min().z() > height);
     objects_.push_back(shown);

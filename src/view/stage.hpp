@@ -1,4 +1,5 @@
-// Who plays which part: how each object is shown, where things happened, from where to look. Shared by page and picture.
+// Who plays which part: how each object is shown, where things happened, from where to look. Shared by page and
+// picture.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +15,7 @@ namespace mamo::view {
 
 struct StageObject {
   ObjectId id;
-  std::string role;         // name of a colour: target, immovable, moved, relevant, movable, fixture
+  std::string role;          // name of a colour: target, immovable, moved, relevant, movable, fixture
   bool see_through = false;  // a wall or a roof that would hide what matters
   int relevant = -1;         // when it became relevant, from 1
   bool touched = false;
@@ -28,9 +29,9 @@ struct StageSegment {
 };
 
 struct Camera {
-  Eigen::Vector3d target{0, 0, 0};  // world, m
-  double yaw = 0, pitch = 0;        // rad: from where it looks, as seen from the target
-  double distance = 2;              // m
+  Eigen::Vector3d target{0, 0, 0};              // world, m
+  double yaw = 0, pitch = 0;                    // rad: from where it looks, as seen from the target
+  double distance = 2;                          // m
   static constexpr double kFieldOfView = 0.61;  // rad, vertical
 };
 

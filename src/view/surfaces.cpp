@@ -14,7 +14,7 @@ namespace {
 constexpr int kSides = 72;           // of round shapes
 constexpr double kTube = 0.0035;     // m, radius of a path
 constexpr double kFailure = 0.05;    // m, radius of the ring where a plan failed
-constexpr float kWall = 0.10f;       // opacity of what is seen through
+constexpr float kWall = 0.08f;       // opacity of what is seen through
 constexpr double kFloorReach = 3.2;  // m
 
 class Collector {
@@ -66,6 +66,7 @@ class Collector {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.translation() = Eigen::Vector3d(c.x(), c.y(), -0.002);
     add(quad, X, style(linear_colour(options_.dark ? "#2a323a" : "#e3e8ee"), 1, Finish::floor));
+    for (Surface& surface : out_) surface.body = 0;  // no line where it meets the sky
   }
 
   void robot() {

@@ -22,7 +22,8 @@ TriangleMesh cylinder_mesh(double radius, double length, int sides) {
   TriangleMesh mesh;
   for (int k = 0; k < sides; ++k) {
     const double a = 2 * std::numbers::pi * k / sides;
-    for (double z : {-length / 2, length / 2}) mesh.vertices.emplace_back(radius * std::cos(a), radius * std::sin(a), z);
+    for (double z : {-length / 2, length / 2})
+      mesh.vertices.emplace_back(radius * std::cos(a), radius * std::sin(a), z);
   }
   mesh.vertices.emplace_back(0, 0, -length / 2);
   mesh.vertices.emplace_back(0, 0, length / 2);
@@ -64,8 +65,8 @@ TriangleMesh merge_in_cells(const TriangleMesh& mesh, double cell) {
   std::vector<int> count;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Eigen::Vector3d p = mesh.vertices[v] / cell;
-    const auto [at, added] = index_of.emplace(
-        Cell{std::llround(p.x()), std::llround(p.y()), std::llround(p.z())}, static_cast<int>(out.vertices.size()));
+    const auto [at, added] = index_of.emplace(Cell{std::llround(p.x()), std::llround(p.y()), std::llround(p.z())},
+                                              static_cast<int>(out.vertices.size()));
     if (added) out.vertices.push_back(Eigen::Vector3d::Zero()), count.push_back(0);
     index[v] = at->second;
     out.vertices[static_cast<std::size_t>(at->second)] += mesh.vertices[v];

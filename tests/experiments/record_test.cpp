@@ -163,6 +163,26 @@ TEST(Report, DoesNotDependOnTheOrderOfLinesNorOnRepeatedOnes) {
                                          testing::HasSubstr("prefers-color-scheme: dark")));
 }
 
+TEST(Report, LeadsFromEveryRunToItsPageWhereThereIsOne) {
+  std::vector<Record> records;
+  const Suite s = suite();
+  for (const BenchRun& run : runs_of(s)) records.push_back(*parse_record(line_of(s, run), "x:1"));
+  const std::string first = records.front().run;
+  const Report report = make_report(records, [&](const Record& r) {
+    return r.run == first ? "pages/" + page_file_name(r.run) : std::string();
+  });
+  const std::string page = to_html(report);
+  EXPECT_THAT(page, testing::HasSubstr("href=\"pages/" + page_file_name(first) + "\""));
+  EXPECT_EQ(page.find("href=\"pages/"), page.rfind("href=\"pages/"));
+  EXPECT_THAT(to_markdown(report), testing::Not(testing::HasSubstr("every run")));
+}
+
+TEST(Report, PagesOfDifferentRunsHaveDifferentPlainNames) {
+  EXPECT_NE(page_file_name("a/b"), page_file_name("a b"));
+  EXPECT_EQ(page_file_name("../x y/1").find_first_of("/ "), std::string::npos);
+  EXPECT_NE(page_file_name("../x")[0], '/');
+}
+
 TEST(Report, QuotesCsvCells) {
   Table table;
   table.header = {"a", "b"};

@@ -223,5 +223,16 @@ TEST(Simplify, SmallHullsComeBackUnchanged) {
   EXPECT_EQ(same.growth, 0);
 }
 
+TEST(LoadTriangles, KeepsTheSurfaceAsItIsScaledPolygonsCut) {
+  const test::ScratchFolder folder;
+  const auto box = load_triangles(folder.write("box.obj", kBoxObj), Eigen::Vector3d(2, 1, 1));
+  ASSERT_TRUE(box.ok()) << box.error().message;
+  EXPECT_EQ(box->triangles.size(), 12u);
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& p : box->vertices) bounds.extend(p);
+  EXPECT_EQ(bounds.max(), Eigen::Vector3d(2, 2, 3));
+  EXPECT_FALSE(load_triangles(folder.path() + "/none.stl", kOne).ok());
+}
+
 }  // namespace
 }  // namespace mamo::io

@@ -26,10 +26,12 @@ esac""",
 }
 
 
-def names(optional):
+def names(kind):
+    """kind: needed, optional or tests."""
     with open(os.path.join(SOURCE, "tools/packages.txt"), encoding="utf-8") as file:
         lines = [line for line in file if line.strip() and not line.startswith("#")]
-    return [line.split()[0] for line in lines if ("# optional" in line) == optional]
+    kind_of = lambda line: next((k for k in ("optional", "tests") if "# " + k in line), "needed")
+    return [line.split()[0] for line in lines if kind_of(line) == kind]
 
 
 class InstallPackages(unittest.TestCase):
@@ -45,7 +47,7 @@ class InstallPackages(unittest.TestCase):
         self.write("uid", "0\n")
         self.write("lists", "")
         self.write("calls", "")
-        self.installed(names(False) + names(True))
+        self.installed(names("needed") + names("optional"))
 
     def write(self, name, text):
         with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
@@ -71,7 +73,7 @@ class InstallPackages(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout, run.stderr, self.read("calls")), (0, "", "", ""))
 
     def test_every_package_that_is_installed_is_named_and_no_other(self):
-        self.installed([name for name in names(False) + names(True) if name not in ("cmake", "libfcl-dev")])
+        self.installed([name for name in names("needed") + names("optional") if name not in ("cmake", "libfcl-dev")])
         run = self.run_script()
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual([line.strip() for line in run.stdout.splitlines() if line.startswith("  ")], ["cmake", "libfcl-dev"])
@@ -94,7 +96,7 @@ class InstallPackages(unittest.TestCase):
                 self.assertEqual(self.read("calls").count(" update"), 1)
 
     def test_no_install_says_what_is_missing_and_how_to_get_it(self):
-        self.installed([name for name in names(False) if name != "cmake"])
+        self.installed([name for name in names("needed") if name != "cmake"])
         run = self.run_script("--no-install")
         self.assertEqual(run.returncode, 1)
         self.assertIn("missing packages: cmake", run.stderr)
@@ -102,11 +104,18 @@ class InstallPackages(unittest.TestCase):
         self.assertEqual(self.read("calls"), "")
 
     def test_what_is_optional_stops_nobody(self):
-        self.installed(names(False))
+        self.installed(names("needed"))
         run = self.run_script("--no-install")
         self.assertEqual(run.returncode, 0)
-        for name in names(True):
+        for name in names("optional"):
             self.assertIn(name, run.stderr)
+
+    def test_what_only_tests_need_is_installed_on_request(self):
+        self.assertIn("chromium", names("tests"))
+        self.assertEqual(self.run_script().returncode, 0)
+        self.assertEqual(self.read("calls"), "")
+        self.assertEqual(self.run_script("--with-tests").returncode, 0)
+        self.assertIn("chromium", self.read("calls"))
 
     def test_sudo_is_used_by_others_than_root(self):
         self.write("uid", "1000\n")

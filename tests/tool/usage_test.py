@@ -3,7 +3,7 @@ import os
 
 from support import ToolTest, main, mamo
 
-SUBCOMMANDS = ("plan", "verify", "generate", "info", "convert", "bench", "report")
+SUBCOMMANDS = ("plan", "verify", "generate", "info", "convert", "bench", "report", "view")
 
 # Arguments, and words of the one line. PROBLEM stands for a problem that is fine.
 WRONG = [
@@ -52,6 +52,11 @@ WRONG = [
     (("convert", "PROBLEM", "out.csv"), ["problem"]),
     (("convert", "PROBLEM", "PROBLEM"), ["overwrite"]),
     (("convert", "PROBLEM", "out.yaml", "--to", "pdf"), ["--to", "pdf"]),
+    (("view",), ["PROBLEM"]),
+    (("view", "PROBLEM"), ["--out", "--image"]),
+    (("view", "PROBLEM", "--out", "PROBLEM"), ["overwrite"]),
+    (("view", "PROBLEM", "--image", "a.png", "--at", "-1"), ["--at", "'-1'"]),
+    (("view", "PROBLEM", "--image", "a.png", "--width", "3"), ["--width", "'3'"]),
     (("info",), ["FILE"]),
     (("info", "PROBLEM", "--svgg", "x.svg"), ["--svgg", "--svg"]),
 ]
@@ -77,7 +82,7 @@ class Usage(ToolTest):
         text = mamo("--help").stdout
         for command in SUBCOMMANDS:
             self.assertIn(f"  {command} ", text)
-        for command in ("view", "train"):
+        for command in ("train",):
             self.assertNotIn(f"  {command} ", text)
 
     def test_version(self):
@@ -112,6 +117,7 @@ class Outputs(ToolTest):
         self.assert_refused(mamo("plan", missing, "--out", self.folder), 73, self.folder)
         self.assert_refused(mamo("convert", missing, self.path("no/out.yaml")), 73, "no/out.yaml")
         self.assert_refused(mamo("info", missing, "--svg", self.path("no/top.svg")), 73, "no/top.svg")
+        self.assert_refused(mamo("view", missing, "--out", self.path("no/page.html")), 73, "no/page.html")
         self.assert_refused(mamo("generate", "tabletop", "--out", self.problem), 73, self.problem)
         self.assertEqual(self.files(), ["planar.urdf", "problem.yaml"])
 

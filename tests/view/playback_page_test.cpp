@@ -1,6 +1,4 @@
 // Pages and pictures as text and bytes; playback_test.py opens them in a browser.
-#include "mamo/view/playback.hpp"
-
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +8,7 @@
 #include "view/triangles.hpp"
 
 #include "mamo/verify/verifier.hpp"
+#include "mamo/view/playback.hpp"
 
 namespace mamo::view {
 namespace {
@@ -45,8 +44,10 @@ std::vector<double> decoded(const nlohmann::json& series) {
   while (out.size() < series["n"].get<std::size_t>()) {
     const std::int64_t coded = next();
     std::int64_t more = 0;
-    if (coded == 0) more = next();
-    else last += coded % 2 ? -(coded + 1) / 2 : coded / 2;
+    if (coded == 0)
+      more = next();
+    else
+      last += coded % 2 ? -(coded + 1) / 2 : coded / 2;
     for (std::int64_t k = 0; k <= more; ++k) out.push_back(static_cast<double>(last) * series["u"].get<double>());
   }
   return out;
@@ -69,9 +70,7 @@ TEST(Series, AreWithinHalfAUnitOfWhatWentIn) {
   }
 }
 
-TEST(Series, OfWhatStandsStillAreShort) {
-  EXPECT_LT(series(std::vector<double>(10000, 0.7), 1e-5).dump().size(), 60u);
-}
+TEST(Series, OfWhatStandsStillAreShort) { EXPECT_LT(series(std::vector<double>(10000, 0.7), 1e-5).dump().size(), 60u); }
 
 TEST(Template, NamesBecomeValuesAndValuesAreNotLookedAtAgain) {
   EXPECT_EQ(filled("a{{x}}b{{y}}", {{"x", "{{y}}"}, {"y", "2"}}), "a{{y}}b2");

@@ -5,8 +5,6 @@ Screenshots stay in the folder named by MAMO_SCREENSHOTS, if it is set.
 """
 import json
 import os
-import re
-import subprocess
 import sys
 import tempfile
 import time
@@ -118,7 +116,11 @@ class Playback(unittest.TestCase):
         self.assertEqual(set(names), {"tip path", "motion of objects", "swept volume", "relevant objects", "failed motions", "heuristic"})
         # The replay of the page is that of the verification: where the plan says the objects are at the end.
         with open(plan, encoding="utf-8") as file:
-            after = json.load(file)["plan"]["segments"][-1]["objects_after"]
+            result = json.load(file)
+        after = result["plan"]["segments"][-1]["objects_after"]
+        silent = json.loads(mamo("plan", problem, "--json", "--threads", 2).stdout)
+        self.assertEqual(result["signature"], silent["signature"], "--explain changes nothing")
+        self.assertNotIn("notes", silent)
         shown = self.value("(player.seek(1e9), Object.fromEntries(player.data.objects.map((o, i) => [o.id, player.bodies.objects[i].position.toArray()])))")
         for name, pose in after.items():
             for a, b in zip(shown[name], pose):

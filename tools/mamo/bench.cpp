@@ -178,7 +178,8 @@ void add_bench(CLI::App& app, Session& session) {
   sub->add_option("--shard", command->shard, "Only every N-th problem, from the I-th: parts for several machines")
       ->type_name("I/N")
       ->check(check_shard);
-  sub->add_option("--pages", command->options.pages, "Folder for a playback page of every run; mamo report links to them")
+  sub->add_option("--pages", command->options.pages,
+                  "Folder for a playback page of every run; mamo report links to them")
       ->type_name("DIR")
       ->check(file_name());
   sub->add_flag("--no-plans", command->no_plans, "Leave the plans out of the lines");

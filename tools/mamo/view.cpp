@@ -97,7 +97,9 @@ void add_view(CLI::App& app, Session& session) {
   sub->add_option("--image", command->image, "Write a picture")->type_name("FILE.png")->check(file_name());
   view::ImageOptions& picture = command->picture;
   sub->add_option("--at", picture.time_s, "Time of the picture (s)")->check(number_at_least(0))->capture_default_str();
-  sub->add_option("--width", picture.width, "Of the picture (px)")->check(whole_number(16, 8192))->capture_default_str();
+  sub->add_option("--width", picture.width, "Of the picture (px)")
+      ->check(whole_number(16, 8192))
+      ->capture_default_str();
   sub->add_option("--height", picture.height, "Of the picture (px)")
       ->check(whole_number(16, 8192))
       ->capture_default_str();
