@@ -1,5 +1,9 @@
 // Grasp the object of interest and bring it home against a given set of obstacles (E-M4M, PlanRetrieval of
 // Algorithm 1): home -> pre-grasp -> grasp -> lift -> home with the object in the gripper.
+//
+// The paper has one grasp; we vary its yaw, height and depth about the given pre-grasp (`grasps` = 1: the given one).
+// The object is drawn out along the line of its approach and the arm approaches by the same way backwards, so both
+// sweep one volume.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -74,9 +78,10 @@ class RetrievalPlanner {
   const std::map<std::string, std::int64_t>& rejected() const;
 
   /// Objects stand at `state`. Fixtures and immovables always count; of the movables those in `obstacles`. Candidates
-  /// are tried in order, from `first` on; the first that works is the outcome. Cheap tests of all candidates (the
-  /// gripper at grasp and pre-grasp against the obstacles) come before the searches. Depends on the arguments only, not
-  /// on the worker.
+  /// are tried in order, from `first` on; the first that works is the outcome. First comes what costs no search: the
+  /// gripper at pre-grasp, grasp and lifted, the lines between, and the way home and approach known from construction;
+  /// then, for up to `searches` candidates whose grasp is free, a search for another way. Depends on the arguments
+  /// only, not on the worker.
   RetrievalOutcome plan(CollisionChecker& checker, const WorldState& state, const ObjectSet& obstacles, int first,
                         StopSource* stop) const;
 
