@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "experiments/chart_style.hpp"
 
 #include "mamo/view/svg.hpp"
 
@@ -16,26 +17,10 @@ using view::px;
 // px
 constexpr double kWidth = 640, kHeight = 400, kLeft = 62, kRight = 18, kTop = 40, kBottom = 52;
 constexpr double kLegendRow = 18;
-// Told apart by people who see few colours (Okabe and Ito 2008), in the order of use.
-constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                 "#e69f00", "#56b4e9", "#7f7f7f", "#b8a800"};
-
 // Lines that lie on one another stay visible.
 constexpr std::array<const char*, 3> kDashes = {"", "\" stroke-dasharray=\"8 4", "\" stroke-dasharray=\"2 4"};
 
-// Alone it follows the system; inside a page, the page's own colours.
-constexpr const char* kStyle =
-    ".chart{font:13px system-ui,sans-serif}.chart .title{font-weight:600}.chart .hollow{stroke-width:2}"
-    ".chart .paper,.chart .hollow{fill:var(--paper,#fff)}.chart text{fill:var(--ink,#222)}"
-    ".chart .grid{stroke:var(--line,#ccc)}.chart .axis{stroke:var(--ink,#222)}.chart .line{fill:none;stroke-width:2}"
-    "@media(prefers-color-scheme:dark){.chart .paper,.chart .hollow{fill:var(--paper,#14181d)}"
-    ".chart text{fill:var(--ink,#ddd)}.chart .grid{stroke:var(--line,#444)}.chart .axis{stroke:var(--ink,#ddd)}}";
-
-std::string label(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+constexpr auto label = chart_number;
 
 /// The axis of x: its range, and where its ticks are.
 struct Axis {
@@ -81,9 +66,7 @@ class Drawing {
 
   std::string svg() {
     const double height = kHeight + kLegendRow * static_cast<double>(chart_.series.size());
-    text_ = "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(kWidth) + " " + px(height) +
-            "\" role=\"img\" aria-label=\"" + escaped(chart_.title) + "\">\n" + "<style>" + kStyle +
-            "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
+    text_ = chart_sheet(kWidth, height, chart_.title);
     text_at(kLeft, 22, chart_.title, "start", "title");
     axes();
     for (std::size_t i = 0; i < chart_.series.size(); ++i) draw(chart_.series[i], i);
@@ -128,7 +111,7 @@ class Drawing {
 
   void draw(const Series& series, std::size_t index) {
     const std::size_t own = series.colour >= 0 ? static_cast<std::size_t>(series.colour) : index;
-    const std::string colour = kColours[own % kColours.size()];
+    const std::string colour = kChartColours[own % kChartColours.size()];
     std::string path;
     double last_y = 0;
     for (const auto& [x, y] : series.points) {
@@ -154,6 +137,12 @@ class Drawing {
 };
 
 }  // namespace
+
+std::string chart_sheet(double width, double height, const std::string& title) {
+  return "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(width) + " " + px(height) +
+         "\" role=\"img\" aria-label=\"" + escaped(title) + "\">\n<style>" + kChartStyle +
+         "</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n";
+}
 
 std::string to_svg(const Chart& chart) { return Drawing(chart).svg(); }
 

@@ -1,17 +1,12 @@
 #include "mamo/experiments/suite.hpp"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
-#include "io/native_problem.hpp"
-#include "io/sha256.hpp"
 #include "io/strict_reader.hpp"
 
-#include "mamo/collision/collision_checker.hpp"
 #include "mamo/common/hash.hpp"
 #include "mamo/io/load.hpp"
 #include "mamo/common/nearest_name.hpp"
@@ -26,7 +21,6 @@ using io::StrictMap;
 using io::YamlValue;
 
 constexpr int kMostProblems = 100000;
-constexpr std::uint64_t kSelfPairSeed = 1;  // as `mamo plan` chooses them
 
 /// Reads the parts of a suite file; complaints go to one place.
 class SuiteReader {
@@ -85,31 +79,44 @@ class SuiteReader {
   }
 
   ProblemSource read_source(const YamlValue& value) {
-    StrictMap map(value, "problems", {"generate", "movable", "immovable", "count", "seed", "constraints", "files"},
-                  complaints_);
-    ProblemSource source;
-    source.generated = map.has("generate");
-    if (source.generated == map.has("files")) map.complain("problems need one of 'generate' and 'files'");
+    StrictMap map(
+        value, "problems",
+        {"generate", "movable", "immovable", "count", "seed", "constraints", "difficulty", "files"}, complaints_);
+    if (map.has("generate") == map.has("files")) map.complain("problems need one of 'generate' and 'files'");
     if (map.has("files")) {
-      source.glob = map.text("files");
-      const auto folder = std::filesystem::path(path_).parent_path();
-      auto files = match_files((folder / source.glob).string());
-      if (files.ok())
-        source.files = *files;
-      else
-        map.complain(files.error().message);
-      return source;
+      auto source = file_source(map.text("files"), std::filesystem::path(path_).parent_path().string());
+      if (source.ok()) return *source;
+      map.complain(source.error().message);
+      return {};
     }
-    if (map.need_text("generate") != "tabletop") map.complain("expected generate: tabletop");
-    source.tabletop.movable = whole(map, "movable", 10, 0, 1000);
+    return read_generated(map);
+  }
+
+  ProblemSource read_generated(StrictMap& map) {
+    using Kind = ProblemSource::Kind;
+    ProblemSource source;
+    const std::string what = map.need_text("generate");
+    source.kind = what == "shelf" ? Kind::shelf : what == "refrigerator" ? Kind::refrigerator : Kind::tabletop;
+    if (source.kind == Kind::tabletop && what != "tabletop")
+      map.complain("expected generate: tabletop, shelf or refrigerator");
+    if (source.kind == Kind::refrigerator && (map.has("movable") || map.has("immovable")))
+      map.complain("a refrigerator holds what it holds: 'movable' and 'immovable' do not go with it");
+    source.tabletop.movable = source.shelf.movable = whole(map, "movable", 10, 0, 1000);
     source.tabletop.immovable = whole(map, "immovable", 2, 0, 1000);
+    source.shelf.immovable = whole(map, "immovable", 4, 0, 1000);
     source.count = whole(map, "count", 60, 1, kMostProblems);
-    if (const YamlValue* seed = map.find("seed")) source.tabletop.seed = whole(*seed, "seed", 0, 1e15);
-    const std::string constraints = map.text("constraints", "contact-only");
+    if (const YamlValue* seed = map.find("seed"))
+      source.tabletop.seed = source.shelf.seed = source.refrigerator.seed = whole(*seed, "seed", 0, 1e15);
+    const std::string constraints = map.text("constraints", source.kind == Kind::tabletop ? "contact-only" : "full");
     if (const auto profile = io::parse_profile(constraints); profile && *profile != Profile::legacy)
-      source.tabletop.profile = *profile;
+      source.tabletop.profile = source.shelf.profile = source.refrigerator.profile = *profile;
     else
       map.complain("constraints must be contact-only or full, not '" + constraints + "'");
+    if (map.has("difficulty")) {
+      source.shelf.difficulty = parse_difficulty(map.text("difficulty"));
+      if (!source.shelf.difficulty || *source.shelf.difficulty == Difficulty::none || source.kind != Kind::shelf)
+        map.complain("difficulty must be easy, medium or hard, and of a shelf");
+    }
     return source;
   }
 
@@ -144,18 +151,13 @@ class SuiteReader {
         complaints_.add(1, 1, "two planners are called '" + planner.label + "'; 'label' tells them apart");
     seen.clear();
     for (const ProblemSource& source : suite.problems)
-      if (!seen.insert(source.setting() + std::to_string(source.tabletop.seed)).second)
+      if (!seen.insert(source.setting() + std::to_string(source.seed())).second)
         complaints_.add(1, 1, "the problems '" + source.setting() + "' stand twice in the suite");
   }
 
   std::string path_;
   Complaints& complaints_;
 };
-
-std::string problem_name(const ProblemSource& source, int index) {
-  if (!source.generated) return source.files[static_cast<std::size_t>(index)];
-  return std::to_string(source.tabletop.seed) + "-" + std::to_string(index);
-}
 
 /// Names of files do not count, only what is planned with.
 std::string settings_hash(const ProblemSource& source, const PlannerEntry& planner) {
@@ -171,38 +173,7 @@ std::string settings_hash(const ProblemSource& source, const PlannerEntry& plann
   return to_hex(hash.value());
 }
 
-/// A generated problem as `mamo plan` would read it from its file, bit for bit.
-Result<Problem> as_loaded(const std::string& text, const std::string& name) {
-  const auto root = io::parse_yaml(text, name);
-  if (!root.ok()) return root.error();
-  Complaints complaints(name);
-  Problem problem;
-  problem.name = problem.path = name;
-  problem.sha256 = io::sha256_hex(text);
-  io::read_native_problem(*root, {}, problem, complaints);
-  if (complaints.any()) return complaints.first();
-  choose_self_pairs(problem.robot, problem.robot_files.disabled, !problem.robot_files.srdf.empty(), kSelfPairSeed);
-  return problem;
-}
-
 }  // namespace
-
-std::string ProblemSource::setting() const {
-  if (!generated) return glob;
-  return "tabletop " + std::to_string(tabletop.movable) + "+" + std::to_string(tabletop.immovable) + " " +
-         std::string(to_string(tabletop.profile));
-}
-
-Result<std::vector<std::string>> match_files(const std::string& pattern) {
-  glob_t matches{};
-  const int status = glob(pattern.c_str(), 0, nullptr, &matches);
-  std::vector<std::string> files;
-  for (std::size_t i = 0; status == 0 && i < matches.gl_pathc; ++i) files.push_back(matches.gl_pathv[i]);
-  globfree(&matches);
-  if (files.empty()) return Error{"no file matches '" + pattern + "'"};
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 Result<Suite> read_suite(const std::string& path) {
   const auto text = io::read_file(path);
@@ -227,7 +198,7 @@ std::vector<BenchRun> runs_of(const Suite& suite) {
           if (planner.count > 0 && k >= planner.count) continue;
           BenchRun run;
           run.index = index;
-          run.id = suite.name + "/" + source.setting() + "/" + problem_name(source, k) + "/" + planner.label + "/" +
+          run.id = suite.name + "/" + source.setting() + "/" + source.problem_name(k) + "/" + planner.label + "/" +
                    std::to_string(seed);
           run.settings = settings_hash(source, planner);
           run.source = s;
@@ -240,20 +211,7 @@ std::vector<BenchRun> runs_of(const Suite& suite) {
 }
 
 Result<Problem> problem_of(const Suite& suite, const BenchRun& run) {
-  const ProblemSource& source = suite.problems[run.source];
-  if (source.generated) {
-    TabletopSpec spec = source.tabletop;
-    spec.index = run.problem;
-    Result<Problem> problem = generate_tabletop(spec);
-    if (!problem.ok()) return problem;
-    const Result<std::string> text = io::to_native_yaml(*problem);
-    if (!text.ok()) return text.error();
-    return as_loaded(*text, problem->name);
-  }
-  Result<Problem> problem = io::load_problem(source.files[static_cast<std::size_t>(run.problem)]);
-  if (problem.ok())
-    choose_self_pairs(problem->robot, problem->robot_files.disabled, !problem->robot_files.srdf.empty(), kSelfPairSeed);
-  return problem;
+  return problem_of(suite.problems[run.source], run.problem);
 }
 
 }  // namespace mamo

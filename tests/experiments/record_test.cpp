@@ -16,7 +16,7 @@ Suite suite() {
   Suite s;
   s.name = "small";
   ProblemSource source;
-  source.generated = true;
+  source.kind = ProblemSource::Kind::tabletop;
   source.count = 4;
   source.tabletop.movable = 10;
   source.tabletop.immovable = 2;

@@ -50,12 +50,9 @@ Result<Suite> suite_of(const BenchCommand& command, bool time_limit_given) {
   }
   Suite suite;
   suite.name = "problems";
-  ProblemSource source;
-  source.glob = command.problems;
-  auto files = match_files(command.problems);
-  if (!files.ok()) return files.error();
-  source.files = *files;
-  suite.problems.push_back(std::move(source));
+  auto source = file_source(command.problems, "");
+  if (!source.ok()) return source.error();
+  suite.problems.push_back(std::move(*source));
   for (const std::string& name : command.planners) {
     PlannerEntry entry;
     entry.name = entry.label = name;

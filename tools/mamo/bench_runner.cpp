@@ -158,7 +158,7 @@ Status run_all(const Suite& suite, const std::vector<BenchRun>& runs, const Benc
     bool interrupted = false;
     FinishedRun done{&run, {}, {}};
     Problem unread;
-    unread.name = unread.path = suite.problems[run.source].generated
+    unread.name = unread.path = suite.problems[run.source].generated()
                                     ? run.id
                                     : suite.problems[run.source].files[static_cast<std::size_t>(run.problem)];
     done.result = problem.ok() ? plan(entry, run, *problem, threads, stops, interrupted)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mamo/common/result.hpp"
-#include "mamo/experiments/tabletop.hpp"
+#include "mamo/experiments/problem_source.hpp"
 
 namespace mamo {
 
@@ -18,18 +18,6 @@ struct RunLimits {
   double time_s = 120;
   std::int64_t max_simulations = std::numeric_limits<std::int64_t>::max();
   std::int64_t max_expansions = std::numeric_limits<std::int64_t>::max();
-};
-
-/// Generated problems 0 .. count-1 of a tabletop setting, or the problem files that a glob names.
-struct ProblemSource {
-  bool generated = false;
-  TabletopSpec tabletop;           // its index is that of a run
-  int count = 0;                   // of generated problems
-  std::string glob;                // of files
-  std::vector<std::string> files;  // what it matched, sorted
-  /// "tabletop 10+2 contact-only" (movable + immovable) or the glob: runs of one setting are one row of a table.
-  std::string setting() const;
-  int size() const { return generated ? count : static_cast<int>(files.size()); }
 };
 
 struct PlannerEntry {
@@ -52,8 +40,6 @@ struct Suite {
 /// Globs are looked up from the suite's folder. Unknown keys, planners and options of planners, a glob that matches
 /// nothing, two planners of one label: errors with their place.
 Result<Suite> read_suite(const std::string& path);
-/// Files that a glob matches, sorted; an error when there are none.
-Result<std::vector<std::string>> match_files(const std::string& glob);
 
 /// One problem, one planner, one seed.
 struct BenchRun {
@@ -68,7 +54,6 @@ struct BenchRun {
 /// Every run of a suite, all planners on a problem before the next problem.
 std::vector<BenchRun> runs_of(const Suite& suite);
 
-/// The problem of a run, ready for a planner: the same bits that `mamo generate` writes and `mamo plan` loads.
 Result<Problem> problem_of(const Suite& suite, const BenchRun& run);
 
 }  // namespace mamo
