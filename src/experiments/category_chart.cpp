@@ -29,9 +29,7 @@ struct Layout {
   bool log;
 
   double group_width() const { return kSlot * static_cast<double>(slots) + kGroupGap; }
-  double width() const {
-    return std::max(kLeastWidth, kLeft + kRight + group_width() * static_cast<double>(groups));
-  }
+  double width() const { return std::max(kLeastWidth, kLeft + kRight + group_width() * static_cast<double>(groups)); }
   double slot(std::size_t group, std::size_t index) const {  // its middle
     return kLeft + group_width() * static_cast<double>(group) + kGroupGap / 2 +
            kSlot * (static_cast<double>(index) + 0.5);
@@ -67,8 +65,8 @@ class Paper {
 };
 
 Paper begin(const Layout& layout, const std::string& title, const std::string& y_label,
-               const std::vector<std::string>& categories, const std::vector<std::string>& legend,
-               bool name_slots, const std::vector<std::string>& series) {
+            const std::vector<std::string>& categories, const std::vector<std::string>& legend, bool name_slots,
+            const std::vector<std::string>& series) {
   const double rows = static_cast<double>(legend.size());
   Paper paper(layout.width(), kHeight + (name_slots ? 70 : 0) + kLegendRow * rows, title);
   paper.text_at(kLeft, 22, title, "start", "title");
@@ -93,8 +91,7 @@ Paper begin(const Layout& layout, const std::string& title, const std::string& y
   }
   for (std::size_t k = 0; k < legend.size(); ++k) {
     const double y = kHeight + (name_slots ? 70 : 0) + kLegendRow * static_cast<double>(k) - 14;
-    paper.add("<rect x=\"" + px(kLeft) + "\" y=\"" + px(y - 10) + "\" width=\"12\" height=\"12\"" +
-              fill(k) + "/>\n");
+    paper.add("<rect x=\"" + px(kLeft) + "\" y=\"" + px(y - 10) + "\" width=\"12\" height=\"12\"" + fill(k) + "/>\n");
     paper.text_at(kLeft + 20, y, legend[k], "start");
   }
   return paper;
@@ -109,10 +106,9 @@ void draw_box(Paper& paper, const Layout& layout, double x, std::size_t colour, 
   paper.line("axis", x, at[0], x, at[1]);
   paper.line("axis", x, at[3], x, at[4]);
   for (double end : {at[0], at[4]}) paper.line("axis", x - half / 2, end, x + half / 2, end);
-  paper.add("<rect x=\"" + px(x - half) + "\" y=\"" + px(at[3]) + "\" width=\"" +
-            px(2 * half) + "\" height=\"" + px(std::max(1.0, at[1] - at[3])) + "\"" +
-            fill(colour) + "><title>" + escaped(name + ": median " + chart_number(percentile(sample, 0.5))) +
-            "</title></rect>\n");
+  paper.add("<rect x=\"" + px(x - half) + "\" y=\"" + px(at[3]) + "\" width=\"" + px(2 * half) + "\" height=\"" +
+            px(std::max(1.0, at[1] - at[3])) + "\"" + fill(colour) + "><title>" +
+            escaped(name + ": median " + chart_number(percentile(sample, 0.5))) + "</title></rect>\n");
   paper.line("axis", x - half, at[2], x + half, at[2]);
 }
 
@@ -152,11 +148,9 @@ std::string to_svg(const StackChart& chart) {
       double below = 0;
       for (std::size_t k = 0; k < chart.heights[g][s].size(); ++k) {
         const double part = chart.heights[g][s][k], top = layout.y(below + part);
-        paper.add("<rect x=\"" + px(layout.slot(g, s) - kSlot * 0.36) + "\" y=\"" + px(top) +
-                  "\" width=\"" + px(kSlot * 0.72) + "\" height=\"" + px(layout.y(below) - top) +
-                  "\"" + fill(k) + "><title>" +
-                  escaped(chart.series[s] + ", " + chart.parts[k] + ": " + chart_number(part)) +
-                  "</title></rect>\n");
+        paper.add("<rect x=\"" + px(layout.slot(g, s) - kSlot * 0.36) + "\" y=\"" + px(top) + "\" width=\"" +
+                  px(kSlot * 0.72) + "\" height=\"" + px(layout.y(below) - top) + "\"" + fill(k) + "><title>" +
+                  escaped(chart.series[s] + ", " + chart.parts[k] + ": " + chart_number(part)) + "</title></rect>\n");
         below += part;
       }
     }

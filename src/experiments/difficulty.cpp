@@ -35,9 +35,7 @@ std::optional<Difficulty> parse_difficulty(std::string_view name) {
 
 Difficulty difficulty_of(int movables_in_the_way) {
   if (movables_in_the_way <= 0) return Difficulty::none;
-  return movables_in_the_way == 1   ? Difficulty::easy
-         : movables_in_the_way == 2 ? Difficulty::medium
-                                    : Difficulty::hard;
+  return movables_in_the_way == 1 ? Difficulty::easy : movables_in_the_way == 2 ? Difficulty::medium : Difficulty::hard;
 }
 
 std::optional<VoxelVolume> retrieval_region(const Problem& problem) {

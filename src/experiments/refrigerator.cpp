@@ -45,7 +45,8 @@ bool draw(const RefrigeratorSpec& spec, int attempt, Problem& problem) {
   problem.scene.objects = shelf_fixtures(kCompartment, spec.profile);
   const std::size_t fixtures = problem.scene.size();
   std::vector<Footprint> taken;
-  RandomStream random(spec.seed, {kStreamKey, static_cast<std::uint64_t>(spec.index), static_cast<std::uint64_t>(attempt)});
+  RandomStream random(spec.seed,
+                      {kStreamKey, static_cast<std::uint64_t>(spec.index), static_cast<std::uint64_t>(attempt)});
   for (const Place& place : kPlaces) {
     const auto items = household_items();
     const HouseholdItem& item =

@@ -63,10 +63,9 @@ class Generator {
  private:
   /// Streams do not depend on what other streams drew.
   RandomStream stream(Use use, int draw, int which) const {
-    return RandomStream(spec_.seed,
-                        {kStreamKey, static_cast<std::uint64_t>(spec_.index), static_cast<std::uint64_t>(scene_),
-                         static_cast<std::uint64_t>(use), static_cast<std::uint64_t>(draw),
-                         static_cast<std::uint64_t>(which)});
+    return RandomStream(spec_.seed, {kStreamKey, static_cast<std::uint64_t>(spec_.index),
+                                     static_cast<std::uint64_t>(scene_), static_cast<std::uint64_t>(use),
+                                     static_cast<std::uint64_t>(draw), static_cast<std::uint64_t>(which)});
   }
 
   /// The shelf, the object to fetch, obstacles, the task. False when something found no place or cannot be reached.

@@ -23,7 +23,8 @@ struct Compartment {
 //            0.48             1.08 x
 inline constexpr Compartment kShelf{{0.48, 1.08}, {-0.90, -0.10}, 0.77, 0.32};
 
-/// Base, back, top, right and left, boards of 4 cm. Objects stand on the base; nobody touches the others (`legacy`: objects may).
+/// Base, back, top, right and left, boards of 4 cm. Objects stand on the base; nobody touches the others (`legacy`:
+/// objects may).
 std::vector<Object> shelf_fixtures(const Compartment& inside, Profile profile);
 
 }  // namespace mamo

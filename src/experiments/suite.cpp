@@ -8,8 +8,8 @@
 #include "io/strict_reader.hpp"
 
 #include "mamo/common/hash.hpp"
-#include "mamo/io/load.hpp"
 #include "mamo/common/nearest_name.hpp"
+#include "mamo/io/load.hpp"
 #include "mamo/io/profile.hpp"
 #include "mamo/planners/registry.hpp"
 
@@ -79,9 +79,9 @@ class SuiteReader {
   }
 
   ProblemSource read_source(const YamlValue& value) {
-    StrictMap map(
-        value, "problems",
-        {"generate", "movable", "immovable", "count", "seed", "constraints", "difficulty", "files"}, complaints_);
+    StrictMap map(value, "problems",
+                  {"generate", "movable", "immovable", "count", "seed", "constraints", "difficulty", "files"},
+                  complaints_);
     if (map.has("generate") == map.has("files")) map.complain("problems need one of 'generate' and 'files'");
     if (map.has("files")) {
       auto source = file_source(map.text("files"), std::filesystem::path(path_).parent_path().string());
@@ -132,8 +132,8 @@ class SuiteReader {
     if (const YamlValue* own = map.find("limits")) entry.limits = read_limits(*own, limits);
     const std::vector<std::string> names = planner_names();
     if (std::find(names.begin(), names.end(), entry.name) == names.end())
-      complaints_.add(map.need("name"), "unknown planner '" + entry.name + "'; did you mean '" +
-                                            nearest_name(entry.name, names) + "'?");
+      complaints_.add(map.need("name"),
+                      "unknown planner '" + entry.name + "'; did you mean '" + nearest_name(entry.name, names) + "'?");
     if (const YamlValue* set = map.find("set")) {
       std::vector<std::string> known;
       for (const OptionDoc& option : planner_options(entry.name)) known.push_back(option.name);

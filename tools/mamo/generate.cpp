@@ -6,6 +6,7 @@
 #include "session.hpp"
 
 #include "mamo/collision/collision_checker.hpp"
+#include "mamo/experiments/refrigerator.hpp"
 #include "mamo/experiments/shelf.hpp"
 #include "mamo/experiments/tabletop.hpp"
 #include "mamo/planners/registry.hpp"
@@ -25,6 +26,12 @@ struct ShelfCommand {
   ShelfSpec spec;
   int count = 1;
   std::string constraints = "full", difficulty, out;
+};
+
+struct RefrigeratorCommand {
+  RefrigeratorSpec spec;
+  int count = 1;
+  std::string constraints = "full", out;
 };
 
 /// Does a path exist that touches no movable? Counts expansions, not seconds, so that the answer repeats.
@@ -74,18 +81,12 @@ int run(TabletopCommand& command, Console& console) {
   return kSolved;
 }
 
-int run(ShelfCommand& command, Console& console) {
-  command.spec.profile = profile_of(command.constraints);
-  command.spec.difficulty = parse_difficulty(command.difficulty);
+/// Retrieval problems, and how hard they are. `make` is called with the index of each.
+int run_retrievals(const std::string& out, int count, const std::function<Result<Problem>(int)>& make,
+                   Console& console) {
   StopSource stop;
   const SignalGuard signals(stop);
-  const auto problems = write_problems(
-      command.out, command.count,
-      [&](int i) {
-        command.spec.index = i;
-        return generate_shelf(command.spec);
-      },
-      stop, console);
+  const auto problems = write_problems(out, count, make, stop, console);
   if (!problems.ok()) return fail(console, problems.error());
   if (stop.stopped()) {
     console.error("mamo: interrupted");
@@ -98,9 +99,31 @@ int run(ShelfCommand& command, Console& console) {
   return kSolved;
 }
 
-/// What both generators take. The commands outlive their options.
+int run(ShelfCommand& command, Console& console) {
+  command.spec.profile = profile_of(command.constraints);
+  command.spec.difficulty = parse_difficulty(command.difficulty);
+  return run_retrievals(
+      command.out, command.count,
+      [&](int i) {
+        command.spec.index = i;
+        return generate_shelf(command.spec);
+      },
+      console);
+}
+
+int run(RefrigeratorCommand& command, Console& console) {
+  command.spec.profile = profile_of(command.constraints);
+  return run_retrievals(
+      command.out, command.count,
+      [&](int i) {
+        command.spec.index = i;
+        return generate_refrigerator(command.spec);
+      },
+      console);
+}
+
 template <class Command>
-void add_common(CLI::App& sub, Command& command) {
+void add_numbers(CLI::App& sub, Command& command) {
   sub.add_option("--movable", command.spec.movable, "Objects that may be pushed")
       ->type_name("N")
       ->check(whole_number(0, 1000))
@@ -109,6 +132,11 @@ void add_common(CLI::App& sub, Command& command) {
       ->type_name("M")
       ->check(whole_number(0, 1000))
       ->capture_default_str();
+}
+
+/// What every generator takes. The commands outlive their options.
+template <class Command>
+void add_common(CLI::App& sub, Command& command) {
   sub.add_option("--seed", command.spec.seed, "Of every random stream")
       ->type_name("S")
       ->check(whole_number(0))
@@ -130,6 +158,7 @@ void add_common(CLI::App& sub, Command& command) {
 void add_tabletop(CLI::App& generate, Session& session, const std::string& example) {
   CLI::App* sub = generate.add_subcommand("tabletop", "Household things on a table, a goal pose amid them");
   auto command = std::make_shared<TabletopCommand>();
+  add_numbers(*sub, *command);
   add_common(*sub, *command);
   add_console_options(*sub, session);
   sub->footer(example);
@@ -139,11 +168,21 @@ void add_tabletop(CLI::App& generate, Session& session, const std::string& examp
 void add_shelf(CLI::App& generate, Session& session, const std::string& example) {
   CLI::App* sub = generate.add_subcommand("shelf", "A crowded shelf, one thing to fetch out of it");
   auto command = std::make_shared<ShelfCommand>();
+  add_numbers(*sub, *command);
   add_common(*sub, *command);
   sub->add_option("--difficulty", command->difficulty,
                   "Draw until 1 (easy), 2 (medium) or more (hard) movables are in the way")
       ->type_name("CLASS")
       ->check(one_of({"easy", "medium", "hard"}));
+  add_console_options(*sub, session);
+  sub->footer(example);
+  sub->callback([command, &session] { session.run = [command, &session] { return run(*command, session.console); }; });
+}
+
+void add_refrigerator(CLI::App& generate, Session& session, const std::string& example) {
+  CLI::App* sub = generate.add_subcommand("refrigerator", "Five household things in a compartment, a can to fetch");
+  auto command = std::make_shared<RefrigeratorCommand>();
+  add_common(*sub, *command);
   add_console_options(*sub, session);
   sub->footer(example);
   sub->callback([command, &session] { session.run = [command, &session] { return run(*command, session.console); }; });
@@ -155,10 +194,13 @@ void add_generate(CLI::App& app, Session& session) {
   CLI::App* generate = app.add_subcommand("generate", "Make random problems");
   generate->require_subcommand(1);
   const std::string table = "Example:\n  mamo generate tabletop --movable 10 --immovable 2 --count 20 --out problems";
-  const std::string shelf = "Example:\n  mamo generate shelf --movable 10 --immovable 4 --difficulty medium --out problems";
+  const std::string shelf =
+      "Example:\n  mamo generate shelf --movable 10 --immovable 4 --difficulty medium --out problems";
+  const std::string fridge = "Example:\n  mamo generate refrigerator --count 20 --out problems";
   generate->footer(table);
   add_tabletop(*generate, session, table);
   add_shelf(*generate, session, shelf);
+  add_refrigerator(*generate, session, fridge);
 }
 
 }  // namespace mamo::tool

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "checks.hpp"
+
 #include "mamo/io/load.hpp"
 
 namespace mamo::tool {

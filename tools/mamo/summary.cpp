@@ -17,9 +17,9 @@ std::string headline(const PlanResult& result, const Problem& problem, const Con
          result.planner + "\n";
 }
 
-std::string relevant_objects(const PlanResult& result, const Scene& scene) {
+std::string relevant_objects(const PlanStats& stats, const Scene& scene) {
   std::string text;
-  for (ObjectId id : result.stats.relevant_objects) text += (text.empty() ? "" : ", ") + io::object_name(scene, id);
+  for (ObjectId id : stats.relevant_objects) text += (text.empty() ? "" : ", ") + io::object_name(scene, id);
   return text.empty() ? "none" : text;
 }
 
@@ -35,6 +35,32 @@ std::string failures(const PlanStats& stats) {
   for (const auto& [cause, count] : stats.failures)
     if (count > 0) text += format("%s%s %lld", text.empty() ? "" : ", ", cause.c_str(), static_cast<long long>(count));
   return text;
+}
+
+/// Planners that search rearrangements count other things than those that search a lattice of motions.
+bool rearranges(const PlanResult& result, const Problem& problem) {
+  return std::holds_alternative<Retrieve>(problem.task) && result.stats.planning_iterations == 0;
+}
+
+std::string rearrangement_effort(const PlanStats& stats) {
+  const auto whole = [](std::int64_t n) { return static_cast<long long>(n); };
+  return line("time", format("%.2f s (loading %.2f, search %.2f, verification %.2f)", stats.wall_s, stats.load_s,
+                             stats.search_s, stats.verification_s)) +
+         line("search", format("%lld expansions, %lld pushes tried, %lld of them simulated, %lld known from before",
+                               whole(stats.expansions), whole(stats.push_attempts), whole(stats.simulations_used),
+                               whole(stats.cache_hits)));
+}
+
+std::string lattice_effort(const PlanStats& stats, const Scene& scene) {
+  return line("time", format("%.2f s (loading %.2f, search %.2f, tracking %.2f, verification %.2f)", stats.wall_s,
+                             stats.load_s, stats.search_s, stats.tracking_s, stats.verification_s)) +
+         line("simulations",
+              format("%lld run, %lld used by the search, %lld for tracking", static_cast<long long>(stats.simulations),
+                     static_cast<long long>(stats.simulations_used),
+                     static_cast<long long>(stats.tracking_simulations))) +
+         line("search", format("%lld expansions, %d planning iteration%s", static_cast<long long>(stats.expansions),
+                               stats.planning_iterations, stats.planning_iterations == 1 ? "" : "s")) +
+         line("relevant", relevant_objects(stats, scene));
 }
 
 }  // namespace
@@ -102,18 +128,10 @@ std::string summary(const PlanResult& result, const Problem& problem, const Cons
   if (!result.reason.empty()) text += line("reason", result.reason);
   if (result.status == PlanStatus::proven) text += proven_assumptions();
   if (!result.plan.empty()) {
-    text += line("cost", cost_line(result));
+    if (result.cost > 0) text += line("cost", cost_line(result));
     text += line("plan", plan_line(result.plan, problem.scene));
   }
-  text += line("time", format("%.2f s (loading %.2f, search %.2f, tracking %.2f, verification %.2f)", stats.wall_s,
-                              stats.load_s, stats.search_s, stats.tracking_s, stats.verification_s));
-  text +=
-      line("simulations",
-           format("%lld run, %lld used by the search, %lld for tracking", static_cast<long long>(stats.simulations),
-                  static_cast<long long>(stats.simulations_used), static_cast<long long>(stats.tracking_simulations)));
-  text += line("search", format("%lld expansions, %d planning iteration%s", static_cast<long long>(stats.expansions),
-                                stats.planning_iterations, stats.planning_iterations == 1 ? "" : "s"));
-  text += line("relevant", relevant_objects(result, problem.scene));
+  text += rearranges(result, problem) ? rearrangement_effort(stats) : lattice_effort(stats, problem.scene);
   if (!stats.failures.empty() && !failures(stats).empty()) text += line("failures", failures(stats));
   if (result.found) {
     std::string verified = result.verified ? "yes: replayed in full physics with every object" : "no";

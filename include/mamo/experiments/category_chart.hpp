@@ -1,5 +1,5 @@
-// Charts over categories (classes of difficulty, say), several series side by side in each: box plots and stacked bars, as
-// self-contained SVG.
+// Charts over categories (classes of difficulty, say), several series side by side in each: box plots and stacked bars,
+// as self-contained SVG.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ std::string to_svg(const BoxChart& chart);
 struct StackChart {
   std::string name;
   std::string title, y_label, caption;
-  std::vector<std::string> categories, series, parts;  // parts from the bottom up
+  std::vector<std::string> categories, series, parts;     // parts from the bottom up
   std::vector<std::vector<std::vector<double>>> heights;  // [category][series][part]; an empty stack is not drawn
 };
 std::string to_svg(const StackChart& chart);

@@ -14,8 +14,8 @@ struct RefrigeratorSpec {
   Profile profile = Profile::full;
 };
 
-/// The shipped PR2 before a compartment 0.60 m wide, 0.45 m deep and 0.32 m high, in it five objects of the YCB set as in
-/// the paper's Figure 1: the tomato soup can to fetch behind the coffee can (002) and the potted meat can, a mustard
+/// The shipped PR2 before a compartment 0.60 m wide, 0.45 m deep and 0.32 m high, in it five objects of the YCB set as
+/// in the paper's Figure 1: the tomato soup can to fetch behind the coffee can (002) and the potted meat can, a mustard
 /// bottle and a sugar box beside. The paper names three of the five and no numbers; the others, the compartment's
 /// size and the places are ours. Each problem is a perturbation: places within 3 cm each way, headings within 0.4 rad,
 /// masses and frictions within a tenth of household_items().
