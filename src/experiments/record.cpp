@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -39,6 +40,13 @@ T number(const Json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<T>() : T{};
 }
 
+/// The text under a key; "" for null and for what is not there.
+std::string optional_text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
 /// A number that the generator noted as text.
 int noted(const Json& generated, const char* key) {
   const auto found = generated.find(key);
@@ -61,6 +69,9 @@ Record record_of(const Json& json) {
   r.reason = text("reason");
   r.commit = text("commit");
   r.machine = json.at("machine").dump();
+  r.version = optional_text(json, "version");
+  r.processor = optional_text(json.at("machine"), "processor");
+  r.started = optional_text(json, "started");
   r.seed = json.at("seed").get<std::uint64_t>();
   r.movable = json.at("movable").get<int>();
   r.immovable = json.at("immovable").get<int>();
@@ -82,13 +93,21 @@ Record record_of(const Json& json) {
   r.expansions = number<std::int64_t>(stats, "expansions");
   r.iterations = number<int>(stats, "planning_iterations");
   r.relevant = static_cast<int>(stats.at("relevant_objects").size());
+  r.mapf_s = number<double>(stats, "mapf_s");
+  r.push_planning_s = number<double>(stats, "push_planning_s");
+  r.simulation_s = number<double>(stats, "simulation_s");
+  r.push_attempts = number<std::int64_t>(stats, "push_attempts");
+  r.pushes = number<int>(json, "pushes");
+  r.difficulty = optional_text(json, "difficulty");
+  r.difficulty_listed = optional_text(json, "difficulty_listed");
   return r;
 }
 
 }  // namespace
 
 std::string bench_line(const Suite& suite, const BenchRun& run, const PlanResult& result, const Problem& problem,
-                       const RunMachine& machine, const std::string& started, bool keep_plan) {
+                       const RunMachine& machine, const std::string& started, bool keep_plan,
+                       const std::string& difficulty) {
   const ProblemSource& source = suite.problems[run.source];
   const PlannerEntry& planner = suite.planners[run.planner];
   Json json = Json::parse(io::result_json(result, problem));
@@ -102,6 +121,10 @@ std::string bench_line(const Suite& suite, const BenchRun& run, const PlanResult
   json["immovable"] = count(problem.scene, ObjectKind::immovable);
   json["constraints"] = std::string(to_string(problem.profile));
   json["generated"] = problem.generated;
+  json["difficulty"] = text_or_null(difficulty);
+  json["difficulty_listed"] = text_or_null(source.generated() ? "" : source.listed_class(run.problem));
+  json["pushes"] = std::count_if(result.plan.segments.begin(), result.plan.segments.end(),
+                                 [](const Segment& s) { return s.kind == SegmentKind::push; });
   json["options"] = planner.set;
   json["weight"] = planner.weight > 0 ? Json(planner.weight) : Json(nullptr);
   json["goal_tolerance"] = goal_tolerance(problem.task);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/report_charts.hpp"
+#include "experiments/retrieval_report.hpp"
 
 #include "mamo/experiments/statistics.hpp"
 
@@ -203,7 +204,9 @@ std::vector<SuiteRecords> by_suite(const std::vector<Record>& records) {
 /// Published planners in the paper's order, then by name: the first one is what the others are compared with.
 void order_labels(SuiteRecords& suite) {
   const auto rank = [](const Group& g) {
-    const std::vector<std::string> order = {"selsim", "selsim-wastar", "fullsim", "fullsim-wastar"};
+    const std::vector<std::string> order = {
+        "em4m",   "em4m-negdb",    "em4m-posdb", "em4m-nodb",      "em4m-tiebreak", "m4m",   "dogar",
+        "selsim", "selsim-wastar", "fullsim",    "fullsim-wastar", "rrt",           "kpiece"};
     const auto found = std::find(order.begin(), order.end(), g.runs.front()->planner);
     return std::pair(found - order.begin(), g.label);
   };
@@ -219,6 +222,8 @@ Report make_report(std::vector<Record> records, const std::function<std::string(
   report.title = "Planning among movable objects: experiments";
   for (const SuiteRecords& suite : by_suite(records)) {
     add_facts(suite, report);
+    for (Table& table : retrieval_tables(suite)) report.tables.push_back(std::move(table));
+    for (Figure& figure : retrieval_figures(suite)) report.figures.push_back(std::move(figure));
     for (Table table :
          {results_table(suite), comparison_table(suite), unsolved_table(suite), runs_table(suite, page_of)})
       if (!table.rows.empty()) report.tables.push_back(std::move(table));

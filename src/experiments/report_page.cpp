@@ -54,6 +54,8 @@ std::string to_markdown(const Report& report) {
     text += markdown_row(table.header) + markdown_row(std::vector<std::string>(table.header.size(), "---"));
     for (const auto& row : table.rows) text += markdown_row(row);
   }
+  for (const Figure& figure : report.figures)
+    text += "\n![" + figure.title + "](" + figure.name + ".svg)\n\n" + figure.caption + "\n";
   for (const Chart& chart : report.charts)
     text += "\n![" + chart.title + "](" + chart.name + ".svg)\n\n" + chart.caption + "\n";
   return text;
@@ -64,10 +66,13 @@ std::string to_html(const Report& report) {
   for (const std::string& fact : report.facts) text += "<li>" + escaped(fact) + "</li>\n";
   text += "</ul>\n";
   if (!report.notes.empty()) text += "<pre>" + escaped(report.notes) + "</pre>\n";
-  if (!report.charts.empty()) text += "<div class=\"charts\">\n";
+  const bool drawn = !report.charts.empty() || !report.figures.empty();
+  if (drawn) text += "<div class=\"charts\">\n";
+  for (const Figure& figure : report.figures)
+    text += "<figure>\n" + figure.svg + "<figcaption>" + escaped(figure.caption) + "</figcaption></figure>\n";
   for (const Chart& chart : report.charts)
     text += "<figure>\n" + to_svg(chart) + "<figcaption>" + escaped(chart.caption) + "</figcaption></figure>\n";
-  if (!report.charts.empty()) text += "</div>\n";
+  if (drawn) text += "</div>\n";
   for (const Table& table : report.tables) text += html_table(table);
   return view::document_page(report.title, text);
 }

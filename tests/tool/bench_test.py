@@ -149,7 +149,7 @@ class Bench(ToolTest):
         for arguments, words in ((("bench",), ["--problems"]),
                                  (("bench", self.suite, "--shard", "3/2"), ["3/2", "I/N"]),
                                  (("bench", self.suite, "--resume"), ["--out"]),
-                                 (("bench", self.suite, "--time-limit", "3"), ["--time-limit"]),
+                                 (("bench", self.suite, "--planners", "selsim"), ["--planners"]),
                                  (("bench", "--problems", self.problem), ["--planners"]),
                                  (("bench", "--problems", self.problem, "--planners", "selsym"), ["selsym"])):
             with self.subTest(arguments):

@@ -40,14 +40,21 @@ std::string check_shard(const std::string& text) {
 }
 
 Result<Suite> suite_of(const BenchCommand& command, bool time_limit_given) {
-  const bool ad_hoc = !command.problems.empty();
-  if (ad_hoc == !command.suite.empty())
-    return Error{"give either a suite or --problems GLOB with --planners A,B", ErrorKind::usage};
-  if (ad_hoc == command.planners.empty()) return Error{"--problems and --planners go together", ErrorKind::usage};
-  if (!ad_hoc) {
-    if (time_limit_given) return Error{"--time-limit goes with --problems: a suite has its own", ErrorKind::usage};
-    return read_suite(command.suite);
+  if (!command.suite.empty()) {
+    if (!command.planners.empty()) return Error{"--planners goes with --problems, without a suite", ErrorKind::usage};
+    auto suite = read_suite(command.suite);
+    if (!suite.ok()) return suite;
+    if (time_limit_given)
+      for (PlannerEntry& planner : suite->planners) planner.limits.time_s = command.time_limit_s;
+    if (command.problems.empty()) return suite;
+    auto source = file_source(command.problems, "");
+    if (!source.ok()) return source.error();
+    suite->problems = {std::move(*source)};
+    return suite;
   }
+  if (command.problems.empty())
+    return Error{"give either a suite or --problems GLOB with --planners A,B", ErrorKind::usage};
+  if (command.planners.empty()) return Error{"--problems and --planners go together", ErrorKind::usage};
   Suite suite;
   suite.name = "problems";
   auto source = file_source(command.problems, "");
@@ -150,14 +157,15 @@ void add_bench(CLI::App& app, Session& session) {
   CLI::App* sub = app.add_subcommand("bench", "Run a suite of experiments, one line of JSON for each run");
   auto command = std::make_shared<BenchCommand>();
   sub->add_option("suite", command->suite, "Suite file (mamo-suite/1)")->type_name("SUITE")->check(file_name());
-  sub->add_option("--problems", command->problems, "Without a suite: a glob of problem files")
+  sub->add_option("--problems", command->problems,
+                  "Instead of the suite's problems: a glob of problem files, or @LIST, a file that lists them")
       ->type_name("GLOB")
       ->check(file_name());
   sub->add_option("--planners", command->planners, "Without a suite: planners, separated by commas")
       ->type_name("A,B")
       ->delimiter(',')
       ->check(one_of(planner_names()));
-  sub->add_option("--time-limit", command->time_limit_s, "Without a suite: seconds for a run")
+  sub->add_option("--time-limit", command->time_limit_s, "Seconds for a run (of a suite: instead of its own)")
       ->type_name("SEC")
       ->check(number_above(0))
       ->capture_default_str();

@@ -12,6 +12,7 @@
 #include "summary.hpp"
 
 #include "mamo/common/stopwatch.hpp"
+#include "mamo/experiments/difficulty.hpp"
 #include "mamo/io/load.hpp"
 #include "mamo/planners/registry.hpp"
 #include "mamo/planners/validate.hpp"
@@ -66,6 +67,7 @@ struct HeldProblem {
   std::size_t source = 0;
   int index = -1;
   Result<Problem> problem = Error{};
+  std::string difficulty;  // of a retrieval
   double load_s = 0;
 };
 
@@ -78,6 +80,9 @@ const Result<Problem>& hold(HeldProblem& held, const Suite& suite, const BenchRu
     held.source = run.source;
     held.index = run.problem;
     held.load_s = watch.seconds();
+    held.difficulty.clear();
+    if (held.problem.ok())
+      if (const auto difficulty = mamo::difficulty(*held.problem)) held.difficulty = to_string(*difficulty);
   }
   return held.problem;
 }
@@ -167,8 +172,8 @@ Status run_all(const Suite& suite, const std::vector<BenchRun>& runs, const Benc
     done.result.stats.load_s = held.load_s;
     done.result.stats.wall_s += held.load_s;
     done.result.stats.peak_memory_mb = peak_memory_mb();
-    done.line =
-        bench_line(suite, run, done.result, problem.ok() ? *problem : unread, machine, started, options.keep_plans);
+    done.line = bench_line(suite, run, done.result, problem.ok() ? *problem : unread, machine, started,
+                           options.keep_plans, held.difficulty);
     Status page;
     if (!options.pages.empty() && problem.ok()) page = write_page(options.pages, run, *problem, done.result);
     const std::lock_guard lock(mutex);

@@ -7,6 +7,7 @@
 #include "exit_codes.hpp"
 #include "session.hpp"
 
+#include "mamo/experiments/ompl_log.hpp"
 #include "mamo/io/load.hpp"
 
 namespace mamo::tool {
@@ -15,6 +16,7 @@ namespace {
 struct ReportCommand {
   std::vector<std::string> results;
   std::string out, notes, pages;
+  bool ompl_logs = false;
 };
 
 int run(const ReportCommand& command, Console& console) {
@@ -31,6 +33,8 @@ int run(const ReportCommand& command, Console& console) {
   }
   if (records.empty()) return fail(console, {command.results.front() + ": no results to report"});
   const std::size_t lines = records.size();
+  std::vector<std::pair<std::string, std::string>> logs;
+  if (command.ompl_logs) logs = ompl_logs(records);
   const std::filesystem::path pages = command.pages.empty() ? file("pages") : command.pages;
   Report report = make_report(std::move(records), [&](const Record& r) -> std::string {
     const std::filesystem::path page = pages / page_file_name(r.run);
@@ -46,6 +50,8 @@ int run(const ReportCommand& command, Console& console) {
                                                             {"report.md", to_markdown(report)}};
   for (const Table& table : report.tables) files.emplace_back(table.name + ".csv", to_csv(table));
   for (const Chart& chart : report.charts) files.emplace_back(chart.name + ".svg", to_svg(chart));
+  for (const Figure& figure : report.figures) files.emplace_back(figure.name + ".svg", figure.svg);
+  for (auto& log : logs) files.push_back(std::move(log));
   for (const auto& [name, content] : files)
     if (const Status status = io::write_file(file(name), content); !status.ok()) return fail(console, status.error());
   std::printf("%zu runs: %zu files in %s, begin with index.html\n", lines, files.size(), command.out.c_str());
@@ -71,6 +77,8 @@ void add_report(CLI::App& app, Session& session) {
   sub->add_option("--pages", command->pages, "Playback pages of mamo bench --pages (default: DIR/pages)")
       ->type_name("DIR")
       ->check(file_name());
+  sub->add_flag("--ompl-logs", command->ompl_logs,
+                "Besides, a log for each suite and setting as ompl_benchmark_statistics reads it");
   add_console_options(*sub, session);
   sub->footer("Example:\n  mamo report bench/results/selsim_table1.jsonl --out report");
   sub->callback([command, &session] { session.run = [command, &session] { return run(*command, session.console); }; });

@@ -31,6 +31,10 @@ struct ProblemSource {
   std::string setting() const;
   /// Names problem k among those of the source.
   std::string problem_name(int k) const;
+  /// The class that a list gives problem k, or "".
+  std::string listed_class(int k) const {
+    return static_cast<std::size_t>(k) < listed.size() ? listed[static_cast<std::size_t>(k)] : "";
+  }
 };
 
 /// Files that a glob matches, sorted; an error when there are none.

@@ -20,8 +20,10 @@ struct RunMachine {
 };
 
 /// The result object of a run, with the run's own fields behind it; no line break. `started`: ISO 8601, UTC.
+/// difficulty: of a retrieval by our own negative goal region, "" where there is none.
 std::string bench_line(const Suite& suite, const BenchRun& run, const PlanResult& result, const Problem& problem,
-                       const RunMachine& machine, const std::string& started, bool keep_plan);
+                       const RunMachine& machine, const std::string& started, bool keep_plan,
+                       const std::string& difficulty = "");
 
 /// Name of the file of a run's playback page.
 std::string page_file_name(const std::string& run);
@@ -29,7 +31,9 @@ std::string page_file_name(const std::string& run);
 /// What reports need of a line.
 struct Record {
   std::string suite, run, settings, setting, label, planner, problem, problem_sha256, constraints, status, reason;
-  std::string commit, machine;
+  std::string commit, machine, version, processor, started;
+  std::string difficulty;         // easy, medium, hard, none; "": not a retrieval, or none found without movables
+  std::string difficulty_listed;  // as the list of problem files says
   std::uint64_t seed = 1;
   int movable = 0, immovable = 0, threads = 1, redraws = 0;  // redraws: of goal and scene together
   bool found = false, solved = false;
@@ -38,6 +42,9 @@ struct Record {
   double time_limit_s = 0, weight = 0, bound = 0, position_tolerance = 0, angle_tolerance = 0;
   std::int64_t simulations = 0, tracking = 0, expansions = 0;  // simulations: used by the search
   int iterations = 0, relevant = 0;
+  double mapf_s = 0, push_planning_s = 0, simulation_s = 0;  // of planners that rearrange
+  std::int64_t push_attempts = 0;
+  int pushes = 0;  // in the plan
 };
 
 /// Errors name the place (`file:line`).

@@ -20,11 +20,18 @@ struct Table {
   std::vector<std::string> links;  // empty, or per row what its first cell links to ("": nothing)
 };
 
+/// A drawn chart that is no Chart: box plots and stacked bars.
+struct Figure {
+  std::string name;  // of its file, without extension
+  std::string title, caption, svg;
+};
+
 struct Report {
   std::string title;
   std::vector<std::string> facts;  // machine, commits, limits, weights: one line each
   std::vector<Table> tables;
   std::vector<Chart> charts;
+  std::vector<Figure> figures;
   std::string notes;  // Markdown, as written by a person
 };
 
