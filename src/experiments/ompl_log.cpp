@@ -103,10 +103,11 @@ std::string planner_text(const Group& planner, const std::map<std::string, int>&
   return text + ".\n";
 }
 
-std::string file_name(const std::string& name) {
+/// One word: the reader takes an experiment's last one.
+std::string word(const std::string& name) {
   std::string text;
-  for (char c : name) text += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' ? c : '_';
-  return text + ".log";
+  for (char c : name) text += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '.' || c == '+' ? c : '_';
+  return text;
 }
 
 }  // namespace
@@ -125,10 +126,10 @@ std::vector<std::pair<std::string, std::string>> ompl_logs(const std::vector<Rec
         for (const Record* r : planner->runs) problems.insert(r->problem);
       std::map<std::string, int> numbers;
       for (const std::string& problem : problems) numbers.emplace(problem, static_cast<int>(numbers.size()));
-      const std::string name = one_line(suite.name + " " + setting);
+      const std::string name = word(suite.name + " " + setting);
       std::string text = header(name, planners);
       for (const Group* planner : planners) text += planner_text(*planner, numbers);
-      logs.emplace_back(file_name(name), std::move(text));
+      logs.emplace_back(name + ".log", std::move(text));
     }
   }
   return logs;

@@ -28,7 +28,7 @@ TEST(Refrigerator, HoldsFiveHouseholdThingsAndTheCanIsBehindOthers) {
     for (const Object& o : p.scene.objects) {
       if (o.fixture()) continue;
       const auto items = household_items();
-      const auto item = std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.name == o.id; });
+      const auto item = std::find_if(items.begin(), items.end(), [&](const HouseholdItem& known) { return known.name == o.id; });
       ASSERT_NE(item, items.end()) << o.id;
       EXPECT_NEAR(o.mass / item->mass, 1, 0.1 + 1e-9);
       EXPECT_NEAR(volume(o.shapes[0].shape), volume(item->shape), 1e-9);

@@ -109,7 +109,7 @@ TEST(OmplLog, HasALineForEveryRunAndPropertiesInOrder) {
   ASSERT_EQ(logs.size(), 1u);
   EXPECT_EQ(logs[0].first, "s_shelf.log");
   const std::string& text = logs[0].second;
-  EXPECT_THAT(text, HasSubstr("Experiment s shelf\n"));
+  EXPECT_THAT(text, HasSubstr("Experiment s_shelf\n"));
   EXPECT_THAT(text, HasSubstr("2 planners\nem4m\n"));
   EXPECT_THAT(text, HasSubstr("time REAL\nsolved BOOLEAN\nstatus ENUM\n"));
   EXPECT_THAT(text, HasSubstr("8 runs\n2; 1; 0; 1; "));

@@ -13,7 +13,8 @@ namespace mamo {
 namespace {
 
 Problem shipped(const std::string& name) {
-  auto problem = io::load_problem(std::string(MAMO_SOURCE_DIR) + "/bench/data/problems/" + name);
+  const std::string folder = MAMO_SOURCE_DIR;
+  auto problem = io::load_problem(folder + "/bench/data/problems/" + name);
   EXPECT_TRUE(problem.ok()) << problem.error().message;
   choose_self_pairs(problem->robot, problem->robot_files.disabled, true, 1);
   return std::move(*problem);

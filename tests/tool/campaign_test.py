@@ -136,7 +136,7 @@ class OmplLogs(ToolTest):
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         connection = sqlite3.connect(base)
         self.addCleanup(connection.close)
-        self.assertEqual(connection.execute("SELECT name FROM experiments").fetchall(), [("r refrigerator full",)])
+        self.assertEqual(connection.execute("SELECT name FROM experiments").fetchall(), [("r_refrigerator_full",)])
         names = {row[0] for row in connection.execute("SELECT name FROM plannerConfigs")}
         self.assertEqual(len(names), 2)
         rows = connection.execute("SELECT time, solved, status, simulations FROM runs").fetchall()
