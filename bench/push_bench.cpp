@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "support/push_chain.hpp"
@@ -19,6 +20,8 @@
 namespace {
 
 using namespace mamo;
+
+constexpr int kAttempts = 3;  // at each path
 
 struct Place {
   Problem problem;
@@ -41,15 +44,15 @@ bool blocked(const Problem& problem, CollisionChecker& checker, ObjectId object,
   return false;
 }
 
-/// Sideways and backwards, 5 to 20 cm, where nothing that stays is in the way.
+/// Backwards, sideways and obliquely forwards, 5 to 20 cm, where nothing that stays is in the way.
 void add_requests(Place& place, int attempts) {
   const Problem& problem = place.problem;
   const WorldState start = WorldState::start_of(problem.scene);
   for (const ObjectId id : ObjectSet::of_kind(problem.scene, ObjectKind::movable).ids()) {
     if (std::get<Retrieve>(problem.task).object == id) continue;
     const Eigen::Vector2d p = problem.scene[id].X_WO.translation().head<2>();
-    if (p.x() > 0.85) continue;  // near the front or in the middle
-    for (const double heading : {0.0, 0.5, -0.5, 1.57, -1.57, 2.2, -2.2}) {
+    if (p.x() > 0.85) continue;                                              // near the front or in the middle
+    for (const double heading : {0.0, 0.5, -0.5, 1.57, -1.57, 2.2, -2.2}) {  // rad; pi would be towards the robot
       for (const double length : {0.05, 0.1, 0.2}) {
         const Eigen::Vector2d d(std::cos(heading), std::sin(heading));
         bool free = true;
@@ -80,13 +83,6 @@ std::optional<Place> load(const std::string& path) {
   return place;
 }
 
-struct Sums {
-  std::map<std::string, int> causes;
-  std::vector<double> ms;
-  PushTimes times;
-  int attempts = 0, valid = 0;
-};
-
 double quantile(std::vector<double> v, double p) {
   if (v.empty()) return 0;
   std::sort(v.begin(), v.end());
@@ -98,78 +94,92 @@ std::vector<std::unique_ptr<Place>>& places() {
   return list;
 }
 
-void survey(int scenes, int attempts) {
-  Sums sums;
-  HashStream hash;
-  std::map<std::pair<int, std::size_t>, std::map<int, std::pair<int, int>>> reached;
-  std::map<double, std::pair<int, int>> by_heading;
-  std::map<double, std::map<std::string, int>> heading_causes;
-  int o_all = 0, o_ok = 0, groups = 0, groups_solved = 0;
-  double setup_ms = 0;
-  for (const char* folder : {"5", "10", "15"})
+/// The first `scenes` scenes with 5, 10 and 15 extra movable objects.
+void load_places(int scenes) {
+  for (const auto& [folder, first] : {std::pair("5", 100000), std::pair("10", 200000), std::pair("15", 300000)})
     for (int k = 0; k < scenes; ++k) {
-      char name[128];
-      const int base = std::string(folder) == "5" ? 100000 : std::string(folder) == "10" ? 200000 : 300000;
-      std::snprintf(name, sizeof name, "%s/em4m_scenes/%s/plan_%06d_SCENE.txt", test::shared_data().c_str(), folder,
-                    base + 2 * k);
-      std::optional<Place> loaded = load(name);
+      char name[64];
+      std::snprintf(name, sizeof name, "em4m_scenes/%s/plan_%06d_SCENE.txt", folder, first + 2 * k);
+      std::optional<Place> loaded = load(test::shared_data() + "/" + name);
       if (!loaded) continue;
       places().push_back(std::make_unique<Place>(std::move(*loaded)));
       Place& place = *places().back();
-      const double t0 = thread_cpu_s();
       place.planner = std::make_unique<PushPlanner>(place.problem, place.kinematics, PushOptions{}, 1);
-      setup_ms += 1e3 * (thread_cpu_s() - t0);
-      add_requests(place, attempts);
-      bool any = false;
-      std::map<int, int> objects;
-      for (std::size_t i = 0; i < place.requests.size(); ++i) {
-        const PushRequest& request = place.requests[i];
-        const double begin = thread_cpu_s();
-        const PushOutcome out = place.planner->attempt(request, nullptr, nullptr);
-        const double ms = 1e3 * (thread_cpu_s() - begin);
-        sums.ms.push_back(ms);
-        std::string cause(to_string(out.failure));
-        if (out.violation && out.failure == PushFailure::violation)
-          cause += " " + std::string(to_string(out.violation->kind));
-        ++sums.causes[cause];
-        ++sums.attempts;
-        sums.valid += out.valid();
-        objects[request.object.value] += out.valid();
-        sums.times.start += out.times.start, sums.times.way += out.times.way, sums.times.approach += out.times.approach;
-        sums.times.simulation += out.times.simulation, sums.times.retreat += out.times.retreat;
-        const Eigen::Vector2d d = request.path[1] - request.path[0];
-        auto& h = by_heading[std::round(100 * std::atan2(d.y(), d.x())) / 100];
-        ++heading_causes[std::abs(std::round(100 * std::atan2(d.y(), d.x())) / 100)]
-                        [std::string(to_string(out.failure))];
-        ++h.second, h.first += out.valid();
-        hash.add(static_cast<std::int32_t>(out.failure));
-        for (const Eigen::VectorXd& q : out.push) hash.add(q[0]);
-        if (request.attempt == 0) any = false, ++groups;
-        if (out.valid() && !any) any = true, ++groups_solved;
-      }
-      for (auto [o, c] : objects) ++o_all, o_ok += c > 0;
+      add_requests(place, kAttempts);
     }
-  std::printf("objects with a valid push: %d of %d\n", o_ok, o_all);
-  std::printf("signature %s, %d attempts, %.1f %% valid; %d of %d paths valid within %d attempts\n",
-              to_hex(hash.value()).c_str(), sums.attempts, 100.0 * sums.valid / std::max(1, sums.attempts),
-              groups_solved, groups, attempts);
-  for (const auto& [cause, count] : sums.causes)
-    std::printf("  %-34s %5d %5.1f %%\n", cause.c_str(), count, 100.0 * count / sums.attempts);
-  std::printf("  ms per attempt: 50%% %.2f  75%% %.2f  90%% %.2f  99%% %.2f; set-up %.1f ms\n", quantile(sums.ms, .5),
-              quantile(sums.ms, .75), quantile(sums.ms, .9), quantile(sums.ms, .99),
-              setup_ms / static_cast<double>(places().size()));
-  const double n = sums.attempts;
-  std::printf("  mean ms: start %.2f  way %.2f  approach %.2f  simulation %.2f  retreat %.2f\n",
-              1e3 * sums.times.start / n, 1e3 * sums.times.way / n, 1e3 * sums.times.approach / n,
-              1e3 * sums.times.simulation / n, 1e3 * sums.times.retreat / n);
-  for (const auto& [heading, causes] : heading_causes) {
-    std::printf("  |heading| %4.2f:", heading);
-    int all = 0;
-    for (const auto& [cause, count] : causes) all += count;
-    for (const auto& [cause, count] : causes) std::printf(" %s %.0f", cause.c_str(), 100.0 * count / all);
-    std::printf("\n");
+}
+
+struct Count {
+  int valid = 0, all = 0;
+  void add(bool is_valid) { valid += is_valid, ++all; }
+};
+
+struct Survey {
+  std::map<std::string, int> causes;
+  std::map<int, Count> by_heading;  // degrees, to both sides
+  std::vector<Count> objects, paths;
+  std::vector<double> ms, share;
+  PushTimes times;
+  HashStream hash;
+
+  void add(const PushRequest& request, const PushOutcome& out, double attempt_ms) {
+    std::string cause(to_string(out.failure));
+    if (out.violation) cause += " " + std::string(to_string(out.violation->kind));
+    ++causes[cause];
+    ms.push_back(attempt_ms);
+    if (out.valid()) share.push_back(out.share);
+    const Eigen::Vector2d d = request.path[1] - request.path[0];
+    by_heading[static_cast<int>(std::lround(std::abs(std::atan2(d.y(), d.x())) * 180 / std::numbers::pi))].add(
+        out.valid());
+    objects.back().add(out.valid());
+    paths.back().add(out.valid());
+    times.start += out.times.start, times.way += out.times.way, times.approach += out.times.approach;
+    times.simulation += out.times.simulation, times.retreat += out.times.retreat;
+    hash.add(static_cast<std::int32_t>(out.failure));
+    for (const Eigen::VectorXd& q : out.push) hash.add(q[0]);
   }
-  for (const auto& [heading, c] : by_heading) std::printf("  heading %5.2f: %d of %d\n", heading, c.first, c.second);
+
+  static void print(const char* what, const std::vector<Count>& counts) {
+    int any = 0, valid = 0, all = 0;
+    for (const Count& c : counts)
+      if (c.valid > 0) ++any, valid += c.valid, all += c.all;
+    std::printf("  %d of %zu %s can be pushed; of the attempts on those %.0f %% are valid\n", any, counts.size(), what,
+                100.0 * valid / std::max(1, all));
+  }
+  void print() const {
+    const double n = static_cast<double>(ms.size());
+    std::printf("signature %s, %zu attempts, %.1f %% valid\n", to_hex(hash.value()).c_str(), ms.size(),
+                100.0 * static_cast<double>(share.size()) / n);
+    print("objects", objects);
+    print("paths", paths);
+    std::printf("  share of the path: 10%% %.2f  25%% %.2f  50%% %.2f\n", quantile(share, 0.1), quantile(share, 0.25),
+                quantile(share, 0.5));
+    for (const auto& [cause, count] : causes)
+      std::printf("  %-34s %5d %5.1f %%\n", cause.c_str(), count, 100 * count / n);
+    for (const auto& [heading, c] : by_heading)
+      std::printf("  heading %3d degrees: %d of %d\n", heading, c.valid, c.all);
+    std::printf("  ms per attempt: 50%% %.2f  75%% %.2f  90%% %.2f  99%% %.2f\n", quantile(ms, 0.5), quantile(ms, 0.75),
+                quantile(ms, 0.9), quantile(ms, 0.99));
+    std::printf("  mean ms: start %.2f  way %.2f  approach %.2f  simulation %.2f  retreat %.2f\n",
+                1e3 * times.start / n, 1e3 * times.way / n, 1e3 * times.approach / n, 1e3 * times.simulation / n,
+                1e3 * times.retreat / n);
+  }
+};
+
+void survey() {
+  Survey survey;
+  for (const auto& place : places())
+    for (const PushRequest& request : place->requests) {
+      if (request.attempt == 0) {
+        survey.paths.emplace_back();
+        if (&request == place->requests.data() || request.object != (&request - 1)->object)
+          survey.objects.emplace_back();
+      }
+      const double begin = thread_cpu_s();
+      const PushOutcome out = place->planner->attempt(request, nullptr, nullptr);
+      survey.add(request, out, 1e3 * (thread_cpu_s() - begin));
+    }
+  if (!survey.ms.empty()) survey.print();
 }
 
 /// Chains of pushes in every scene, replayed by the verifier.
@@ -178,7 +188,8 @@ void replay() {
   for (std::size_t i = 0; i < places().size(); ++i)
     for (std::uint64_t k = 0; k < 3; ++k)
       if (const Place& p = *places()[i]; !p.requests.empty())
-        agreement.add(p.problem, fixtures::random_chain(p.problem, p.kinematics, p.requests, 3, PushOptions{}, 10 * i + k));
+        agreement.add(p.problem,
+                      fixtures::random_chain(p.problem, p.kinematics, p.requests, 3, PushOptions{}, 10 * i + k));
   agreement.print();
   for (const std::string& text : agreement.violations) std::printf("  %s\n", text.c_str());
 }
@@ -198,7 +209,8 @@ BENCHMARK(attempt)->Unit(benchmark::kMillisecond);
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  survey(argc > 1 ? std::atoi(argv[1]) : 3, 3);
+  load_places(argc > 1 ? std::atoi(argv[1]) : 3);
+  survey();
   replay();
   benchmark::RunSpecifiedBenchmarks();
   return 0;

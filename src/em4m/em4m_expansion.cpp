@@ -36,6 +36,7 @@ void Em4mQuery::expand(Vertex& vertex) {
     ++result().stats.failures[why];
     return close(vertex);
   }
+  if (options().explain) notes_.paths(static_cast<int>(result().stats.expansions), found.paths, vertex.state);
   std::vector<const ObjectPath*> paths;
   for (const ObjectPath& path : found.paths)
     if (!push_again(vertex, path)) paths.push_back(&path);
@@ -93,7 +94,10 @@ bool Em4mQuery::push_object(Vertex& vertex, const ObjectPath& path, Attempts& at
     board().finish(attempts[k].job);
     const std::shared_ptr<const PushOutcome> outcome = attempts[k].outcome;
     if (!count(path.object, *outcome)) return false;
-    if (!outcome->valid()) continue;
+    if (!outcome->valid()) {
+      if (options().explain) notes_.failed(static_cast<int>(result().stats.expansions), path, *outcome, vertex.state);
+      continue;
+    }
     for (std::size_t rest = k + 1; rest < attempts.size(); ++rest) board().drop(attempts[rest].job);
     if (variant_.positive_cache) database_.store(path, vertex.state, outcome);
     add_successor(vertex, path, outcome, outcome->after);

@@ -10,14 +10,21 @@ Em4mQuery::Em4mQuery(const Em4mVariant& variant, const Problem& problem, const P
                      const PlanContext& context, const Em4mOptions& settings)
     : RearrangementQuery(variant.name, problem, options, context, settings.rearrangement),
       variant_(variant),
-      settings_(settings) {}
+      settings_(settings),
+      notes_(problem) {}
 
 void Em4mQuery::search() {
+  search_rearrangements();
+  if (options().explain) result().notes = notes_.take();
+}
+
+void Em4mQuery::search_rearrangements() {
   const WorldState start = WorldState::start_of(scene());
   if (variant_.retrieves && try_retrievals({}, start, retrieve(start, all_movables(), 0, WorkerId(0)),
                                            [](const Verdict&) { return true; }) != Submitted::rejected)
     return;
   regions_ = negative_goal_regions();
+  if (options().explain && !regions_.empty()) notes_.region(regions_.front());
   for (int r = 0; r < static_cast<int>(regions_.size()); ++r) {
     Vertex& root = add_vertex(r, nullptr, {}, start);
     root.retrieval_tried = true;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "em4m/em4m_notes.hpp"
 #include "em4m/em4m_options.hpp"
 #include "em4m/push_database.hpp"
 #include "em4m/vertex.hpp"
@@ -36,6 +37,7 @@ class Em4mQuery : public RearrangementQuery {
   using Attempts = std::vector<Attempt>;
 
   void search() override;
+  void search_rearrangements();
   std::string what_is_in_the_way() const override;
 
   // Vertices.
@@ -69,6 +71,7 @@ class Em4mQuery : public RearrangementQuery {
   std::map<std::pair<int, RearrangementClass>, int> fewest_pushes_;  // by region
   PushDatabase database_;
   const Vertex* best_ = nullptr;
+  Em4mNotes notes_;
 };
 
 }  // namespace mamo

@@ -40,11 +40,12 @@ class RestWatch {
   bool all_rest() const {
     return std::all_of(steps_.begin(), steps_.end(), [this](int s) { return s >= needed_; });
   }
-  /// Of those not at rest the fastest.
-  Violation fastest(const World& world) const {
+  /// Of those not at rest, or of those awake, the fastest.
+  Violation fastest(const World& world, bool of_awake) const {
     Violation v{ViolationKind::not_at_rest, kNoObject, kNoObject, -1, kRestSpeed, 0};
     for (std::size_t i = 0; i < ids_.size(); ++i)
-      if (steps_[i] < needed_ && speed(world, ids_[i]) > v.value) v.object = ids_[i], v.value = speed(world, ids_[i]);
+      if ((of_awake ? world.awake(ids_[i]) : steps_[i] < needed_) && speed(world, ids_[i]) > v.value)
+        v.object = ids_[i], v.value = speed(world, ids_[i]);
     return v;
   }
 
@@ -121,7 +122,7 @@ struct Evaluator::Impl {
     for (; waited < most && !waited_enough(r); ++waited)
       if (!step(r, r.motion->q.back(), out)) return;
     out.settle_s = static_cast<double>(waited) * step_s;
-    if (!rest.all_rest()) out.violation = rest.fastest(world);
+    if (!waited_enough(r)) out.violation = rest.fastest(world, r.until_asleep);
   }
 
   bool waited_enough(const EvaluationRequest& r) const {

@@ -14,8 +14,8 @@
 
 namespace mamo::fixtures {
 
-inline Segment segment(const Problem& problem, SegmentKind kind, ObjectId object, const std::vector<Eigen::VectorXd>& path,
-                double wait_s) {
+inline Segment segment(const Problem& problem, SegmentKind kind, ObjectId object,
+                       const std::vector<Eigen::VectorXd>& path, double wait_s) {
   Segment out;
   out.kind = kind;
   out.object = object;

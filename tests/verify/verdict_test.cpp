@@ -134,12 +134,12 @@ TEST_F(ThreePushes, AStopInTheMiddleEndsAtOnce) {
 TEST_F(ThreePushes, AFindingIsOneLineWithSegmentObjectConstraintValueLimitAndTime) {
   plan.segments[1].object = can;
   plan.segments[1].kind = SegmentKind::push;
-  problem.scene.objects[can.index()].constraints.max_displacement = 0.25;
+  problem.scene.objects[can.index()].constraints.max_displacement = 0.24;
   const Verdict verdict = judge(problem, plan);
   ASSERT_TRUE(rejects(verdict, ViolationKind::displacement, 1));
   const std::string& text = verdict.findings[0].text;
   EXPECT_THAT(text, testing::StartsWith("segment 1 (push of can), "));
-  EXPECT_THAT(text, testing::ContainsRegex("[0-9]+\\.[0-9]{3} s: displacement of can, 0\\.25[0-9]* m, limit 0\\.25 m"));
+  EXPECT_THAT(text, testing::ContainsRegex("[0-9]+\\.[0-9]{3} s: displacement of can, 0\\.24[0-9]* m, limit 0\\.24 m"));
   EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 

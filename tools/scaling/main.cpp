@@ -1,17 +1,23 @@
-// Predicts, from the trace of one search, how it would have gone with 1 to 128 workers.
+// Predicts how one search would have gone with 1 to 128 workers.
 //
 //   scaling TRACE [--workers 1,2,4,...] [--locked-us X] [--json]
+//   scaling --problem FILE [--weight W] [--max-expansions N] ...
 //   scaling --toy SEED ...      records a toy search with 2 threads first
 //
-// Runs the real scheduler in virtual time over the recorded evaluations (thread CPU time of each). Prints work and
-// span first: their ratio is about the most that any number of workers can win while keeping the serial order.
-// Contention for caches and memory is not modelled.
+// Runs the real scheduler in virtual time over evaluations of known length (thread CPU time). Prints work and span
+// first: their ratio is about the most that any number of workers can win while keeping the serial order. A trace knows
+// nothing of edges that only more workers would have met (trace_domain.hpp says what stands for them); --problem, the
+// first planning iteration of fullsim, evaluates them when a virtual worker asks. Not modelled: the generation of
+// successors, contention for caches and memory.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
+
+#include "lattice_search.hpp"
+#include "memo_domain.hpp"
 
 #include "mamo/search/eager_order.hpp"
 #include "mamo/search/lazy_order.hpp"
@@ -24,10 +30,12 @@ namespace {
 
 using namespace mamo::search;
 
-constexpr char kUsage[] = "usage: scaling TRACE|--toy SEED [--workers 1,2,4,...] [--locked-us MICROSECONDS] [--json]\n";
+constexpr char kUsage[] = "usage: scaling TRACE|--toy SEED|--problem FILE [--weight W] [--max-expansions N] [--workers 1,2,4,...] [--locked-us MICROSECONDS] [--json]\n";
 
 struct Arguments {
-  std::string trace;
+  std::string trace, problem;
+  double weight = 100;
+  std::int64_t max_expansions = kNoLimit;
   std::vector<int> workers{1, 2, 4, 8, 16, 32, 64, 128};
   double locked_us = 1;
   long toy = -1;
@@ -55,6 +63,12 @@ Arguments parse(int argc, char** argv) {
       }
     } else if (word == "--locked-us" && more) {
       a.locked_us = std::atof(argv[++i]);
+    } else if (word == "--problem" && more) {
+      a.problem = argv[++i];
+    } else if (word == "--weight" && more) {
+      a.weight = std::atof(argv[++i]);
+    } else if (word == "--max-expansions" && more) {
+      a.max_expansions = std::atol(argv[++i]);
     } else if (word == "--toy" && more) {
       a.toy = std::atol(argv[++i]);
     } else if (a.trace.empty() && word[0] != '-') {
@@ -63,7 +77,8 @@ Arguments parse(int argc, char** argv) {
       wrong("what is " + word + "?");
     }
   }
-  if (a.trace.empty() == (a.toy < 0)) wrong("one trace is needed, or --toy");
+  if (!a.trace.empty() + (a.toy >= 0) + !a.problem.empty() != 1) wrong("one trace is needed, or --problem, or --toy");
+  if (!(a.weight >= 1) || a.max_expansions < 1) wrong("--weight and --max-expansions take numbers of at least 1");
   return a;
 }
 
@@ -73,13 +88,51 @@ struct Row {
   double seconds, clairvoyant, stall, idle_share, efficiency;
 };
 
-template <template <class, class> class OrderT>
-int predict(const Trace& trace, const Arguments& arguments) {
-  const TraceDomain domain(trace);
-  SearchOptions options;
-  options.weight = trace.weight;
-  options.max_evaluations = domain.commits();
-  const auto seconds = [&](const TraceDomain::State& s, std::int32_t action) { return domain.seconds(s, action); };
+struct Recorded {
+  int threads = 0;  // 0: nothing was
+  std::string schedule;
+  double wall_s = 0;
+};
+
+void print(double weight, const WorkAndSpan& work, const Recorded& recorded, const std::vector<Row>& rows,
+           const Arguments& arguments) {
+  const std::size_t evaluations = work.commits.size();
+  if (arguments.json) {
+    std::printf(
+        "{\"input\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
+        "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
+        (arguments.trace + arguments.problem).c_str(), weight, evaluations, work.work_s, work.span_s, recorded.threads,
+        recorded.schedule.c_str(), recorded.wall_s);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& r = rows[i];
+      std::printf(
+          "%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
+          "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
+          i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds,
+          r.clairvoyant, r.stall, r.idle_share, r.efficiency);
+    }
+    std::printf("\n]}\n");
+    return;
+  }
+  std::printf("weight %g, %zu committed evaluations, work %.3f s, span %.3f s, work / span %.1f\n", weight, evaluations,
+              work.work_s, work.span_s, work.span_s > 0 ? work.work_s / work.span_s : 1.0);
+  if (recorded.threads > 0) {
+    std::printf("recorded with %d threads, %s: %.3f s\n", recorded.threads, recorded.schedule.c_str(),
+                recorded.wall_s);
+  }
+  std::printf("%8s %-9s %10s %8s %12s %8s %8s %6s %10s\n", "workers", "schedule", "seconds", "speedup", "clairvoyant",
+              "share", "stall_s", "idle", "efficiency");
+  for (const Row& r : rows) {
+    std::printf("%8d %-9s %10.3f %8.2f %12.3f %8.2f %8.3f %6.2f %10.2f\n", r.workers,
+                std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds, r.clairvoyant,
+                r.clairvoyant / r.seconds, r.stall, r.idle_share, r.efficiency);
+  }
+}
+
+/// domain.seconds(state, action) says how long an evaluation takes.
+template <template <class, class> class OrderT, Domain D>
+void predict(const D& domain, const SearchOptions& options, const Recorded& recorded, const Arguments& arguments) {
+  const auto seconds = [&](const typename D::State& s, std::int32_t action) { return domain.seconds(s, action); };
   const WorkAndSpan work = work_and_span<OrderT>(domain, options, seconds);
   VirtualCosts costs;
   costs.locked_s = 1e-6 * arguments.locked_us;
@@ -93,35 +146,7 @@ int predict(const Trace& trace, const Arguments& arguments) {
                       run.efficiency()});
     }
   }
-  const std::size_t evaluations = work.commits.size();
-  if (arguments.json) {
-    std::printf(
-        "{\"trace\": \"%s\", \"weight\": %g, \"committed\": %zu, \"work_s\": %.6f, \"span_s\": %.6f, "
-        "\"recorded_threads\": %d, \"recorded_schedule\": \"%s\", \"recorded_wall_s\": %.6f, \"rows\": [",
-        arguments.trace.c_str(), trace.weight, evaluations, work.work_s, work.span_s, trace.threads,
-        trace.schedule.c_str(), trace.wall_s);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Row& r = rows[i];
-      std::printf(
-          "%s\n {\"workers\": %d, \"schedule\": \"%s\", \"seconds\": %.6f, \"speedup\": %.4f, "
-          "\"clairvoyant_s\": %.6f, \"stall_s\": %.6f, \"idle_share\": %.4f, \"efficiency\": %.4f}",
-          i ? "," : "", r.workers, std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds,
-          r.clairvoyant, r.stall, r.idle_share, r.efficiency);
-    }
-    std::printf("\n]}\n");
-    return 0;
-  }
-  std::printf("weight %g, %zu committed evaluations, work %.3f s, span %.3f s, work / span %.1f\n", trace.weight,
-              evaluations, work.work_s, work.span_s, work.span_s > 0 ? work.work_s / work.span_s : 1.0);
-  std::printf("recorded with %d threads, %s: %.3f s\n", trace.threads, trace.schedule.c_str(), trace.wall_s);
-  std::printf("%8s %-9s %10s %8s %12s %8s %8s %6s %10s\n", "workers", "schedule", "seconds", "speedup", "clairvoyant",
-              "share", "stall_s", "idle", "efficiency");
-  for (const Row& r : rows) {
-    std::printf("%8d %-9s %10.3f %8.2f %12.3f %8.2f %8.3f %6.2f %10.2f\n", r.workers,
-                std::string(to_string(r.schedule)).c_str(), r.seconds, work.work_s / r.seconds, r.clairvoyant,
-                r.clairvoyant / r.seconds, r.stall, r.idle_share, r.efficiency);
-  }
-  return 0;
+  print(options.weight, work, recorded, rows, arguments);
 }
 
 /// The trace file, or the record of a toy search whose evaluations compute for 15 microseconds to 10 milliseconds.
@@ -151,14 +176,42 @@ mamo::Result<Trace> input(const Arguments& arguments) {
   return trace;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const Arguments arguments = parse(argc, argv);
+int of_trace(const Arguments& arguments) {
   const auto trace = input(arguments);
   if (!trace.ok()) {
     std::fprintf(stderr, "%s\n", trace.error().message.c_str());
     return 3;
   }
-  return trace->lazy ? predict<LazyOrder>(*trace, arguments) : predict<EagerOrder>(*trace, arguments);
+  const TraceDomain domain(*trace);
+  SearchOptions options;
+  options.weight = trace->weight;
+  options.max_evaluations = domain.commits();
+  const Recorded recorded{trace->threads, trace->schedule, trace->wall_s};
+  if (trace->lazy) {
+    predict<LazyOrder>(domain, options, recorded, arguments);
+  } else {
+    predict<EagerOrder>(domain, options, recorded, arguments);
+  }
+  return 0;
+}
+
+int of_problem(const Arguments& arguments) {
+  const auto search = mamo::LatticeSearch::load(arguments.problem);
+  if (!search.ok()) {
+    std::fprintf(stderr, "%s\n", search.error().message.c_str());
+    return 3;
+  }
+  mamo::ManipulationLattice::Context context{&(*search)->evaluator(), {}};
+  SearchOptions options;
+  options.weight = arguments.weight;
+  options.max_expansions = arguments.max_expansions;
+  predict<LazyOrder>(MemoDomain((*search)->lattice(), context), options, {}, arguments);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments = parse(argc, argv);
+  return arguments.problem.empty() ? of_trace(arguments) : of_problem(arguments);
 }

@@ -34,7 +34,8 @@ struct EvaluationRequest {
   ObjectId held = kNoObject;         // attached to held_link from the start on
   LinkId held_link;
   /// The wait at the end lasts until every object is asleep, and the state says where they sleep: what follows in a
-  /// continuous replay is then, bit for bit, what an evaluation from that state gives.
+  /// continuous replay is then, bit for bit, what an evaluation from that state gives. Longer than settle_time: not at
+  /// rest.
   bool until_asleep = false;
   StopSource* stop = nullptr;                 // may be null
   const std::atomic<bool>* cancel = nullptr;  // may be null: speculation that can no longer matter

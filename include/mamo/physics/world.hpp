@@ -28,10 +28,10 @@ struct Contact {
 ///
 /// Bullet gives the shapes, the contact points and the sequential-impulse solver; the loop around them is ours,
 /// so that bodies are visited in order of id, sleep until something that moves comes within a millimetre or two,
-/// and nothing is kept that reset() does not clear. What falls asleep is put
-/// to the nearest quantised pose and its contacts are forgotten, so that a motion among objects asleep gives the same
-/// bits whether it is simulated on its own or as a part of a longer one. A floor at z = 0 (lower where the scene starts lower) catches
-/// what falls. Moving links are kinematic: they push with whatever force it takes and are pushed by nothing.
+/// and nothing is kept that reset() does not clear. What falls asleep is put to the nearest quantised pose and its
+/// contacts are forgotten: a motion among objects asleep gives the same bits whether it is simulated on its own or as a
+/// part of a longer one. A floor at z = 0 (lower where the scene starts lower) catches what falls. Moving links are
+/// kinematic: they push with whatever force it takes and are pushed by nothing.
 /// Fixtures, still links and immovables without mass are static.
 class World {
  public:

@@ -285,6 +285,7 @@ class Scheduler {
       return;
     }
     c.phase = CellPhase::done;
+    if (!graph_.at(need.parent).alive) lookahead_.released(need);  // too late for abandon() to do it
     evaluation(c).seconds = static_cast<float>(finished.seconds);
     evaluation(c).report = finished.outcome.report;
     c.valid = finished.outcome.report.valid && !finished.error;

@@ -21,7 +21,9 @@ namespace mamo::search {
 /// The bench key. A shadow's edge may have a tiny f, but the serial order cannot pop it before it has popped the
 /// edges that lead there. So edges are ordered by Bench, then f, then larger g. Ordering by raw f instead wastes most
 /// speculation; ordering by the largest f alone wastes it where many workers run far ahead.
-/// A state that several edges lead to has the least (bench, g) among them.
+/// A state that several edges lead to has the least (bench, g) among them, and remembers whose: when that one dies, the
+/// state and what hangs on it are weighed anew. Without that, regions that many paths lead into keep the urgency of
+/// paths that are no more, and with dozens of workers nearly all speculation goes there.
 ///
 /// A shadow is alive while it is closed, or its class is open and a done edge of a living state leads to it. Only
 /// living shadows have entries in PENDING; each has one: its best fresh edge. Entries are replaced by version.
@@ -34,7 +36,9 @@ class ShadowGraph {
     std::unique_ptr<Expansion> expansion;
     Bench bench = Bench::never();
     Cost g = kUnreachable, h = 0;
-    std::int32_t live_in = 0;   // done edges of living states that lead here
+    std::vector<std::pair<StateId, std::int32_t>> in;  // done edges that led here, with their states
+    StateId from = kNoState;                            // the one of them that gave bench and g
+    std::int32_t live_in = 0;                           // those of living states
     std::uint32_t version = 0;  // of its entry in PENDING
     std::int32_t cursor = 0;    // into expansion->order: everything before is not fresh
     std::int32_t round = -1;    // of schedule `batch`
@@ -74,9 +78,10 @@ class ShadowGraph {
   /// A done edge of `parent` leads to `child`.
   void link(StateId parent, std::int32_t edge, StateId child) {
     meet(child);
-    const Step step = step_over(parent, edge, child);
-    improve(step.id, step.bench, step.g, step.h);
-    if (!at(parent).alive) return;
+    at(child).in.emplace_back(parent, edge);
+    const Shadow& p = at(parent);
+    if (!p.alive) return;
+    if (p.g != kUnreachable) improve(step_over(parent, edge, child));
     ++at(child).live_in;
     set_alive(child);
   }
@@ -89,19 +94,14 @@ class ShadowGraph {
     s.bench = Bench::now();
     s.g = g;
     for (StateId m = at(table_.class_of(id)).first_in_class; m != kNoState; m = at(m).next_in_class) set_alive(m);
-    const std::size_t bottom = steps_.size();
     relax_children(id);
-    while (steps_.size() > bottom) {
-      const Step step = steps_.back();
-      steps_.pop_back();
-      improve(step.id, step.bench, step.g, step.h);
-    }
+    run_steps();
     requeue(id);
   }
   /// The (eager) order has put a state into OPEN.
   void open(StateId id, Cost g) {
     meet(id);
-    improve(id, Bench::now(), g, at(id).h);
+    improve({id, kNoState, Bench::now(), g, at(id).h});
     at(id).opened = true;
     set_alive(id);
     requeue(id);
@@ -156,7 +156,7 @@ class ShadowGraph {
 
  private:
   bool eligible(const Shadow& s) const {
-    if (!s.alive || s.failed) return false;
+    if (!s.alive || s.failed || s.g == kUnreachable) return false;
     return ahead_ || s.closed || s.opened;
   }
 
@@ -212,7 +212,7 @@ class ShadowGraph {
   }
 
   struct Step {
-    StateId id;
+    StateId id, from;
     Bench bench;
     Cost g, h;
   };
@@ -221,16 +221,18 @@ class ShadowGraph {
     const Shadow& p = at(parent);
     const LazyEdge& e = p.expansion->edges[static_cast<std::size_t>(edge)];
     const Cost g = p.g + e.cost;
-    if constexpr (lazy) return {child, p.bench.after(weight_.f(g, e.heuristic)), g, e.heuristic};
-    return {child, p.closed ? Bench::now() : key_of(p, edge).bench, g, e.heuristic};
+    if constexpr (lazy) return {child, parent, p.bench.after(weight_.f(g, e.heuristic)), g, e.heuristic};
+    return {child, parent, p.closed ? Bench::now() : key_of(p, edge).bench, g, e.heuristic};
   }
 
   /// Lowers (bench, g) of a state and of all that hang on it through done edges. Ends: a value that comes round a
   /// cycle has a larger g, and never a smaller bench.
-  void improve(StateId first, const Bench& bench, Cost g, Cost h) {
-    const std::size_t bottom = steps_.size();
-    steps_.push_back({first, bench, g, h});
-    while (steps_.size() > bottom) {
+  void improve(const Step& first) {
+    steps_.push_back(first);
+    run_steps();
+  }
+  void run_steps() {
+    while (!steps_.empty()) {
       const Step step = steps_.back();
       steps_.pop_back();
       Shadow& s = at(step.id);
@@ -238,11 +240,13 @@ class ShadowGraph {
       s.bench = step.bench;
       s.g = step.g;
       s.h = step.h;
+      s.from = step.from;
       relax_children(step.id);
       requeue(step.id);
     }
   }
   void relax_children(StateId id) {
+    if (!at(id).alive || at(id).g == kUnreachable) return;
     each_child(at(id), [&](std::int32_t edge, StateId child) { steps_.push_back(step_over(id, edge, child)); });
   }
 
@@ -257,6 +261,11 @@ class ShadowGraph {
       const bool alive = s.closed || ((s.live_in > 0 || s.opened) && table_.closed_by(id) == kNoState);
       if (alive == s.alive) continue;
       s.alive = alive;
+      if (alive) {
+        relax_children(id);
+      } else {
+        orphans_.push_back(id);
+      }
       each_child(s, [&](std::int32_t, StateId child) {
         at(child).live_in += alive ? 1 : -1;
         settle_.push_back(child);
@@ -264,6 +273,39 @@ class ShadowGraph {
       if (!alive && on_death) on_death(id);
       requeue(id);
     }
+    if (bottom > 0) return;
+    run_steps();
+    weigh_anew();
+  }
+
+  /// The dead, and all that had (bench, g) from them, forget these; the living among them get what others have to give.
+  /// What only a circle of shadows keeps alive gets nothing.
+  void weigh_anew() {
+    for (std::size_t i = 0; i < orphans_.size(); ++i) {
+      const StateId id = orphans_[i];
+      Shadow& s = at(id);
+      s.bench = Bench::never();
+      s.g = kUnreachable;
+      s.from = kNoState;
+      each_child(s, [&](std::int32_t, StateId child) {
+        Shadow& c = at(child);
+        if (c.from != id || c.closed || c.opened) return;
+        c.from = kNoState;
+        orphans_.push_back(child);
+      });
+    }
+    for (const StateId id : orphans_) {
+      requeue(id);
+      if (!at(id).alive) continue;
+      for (const auto& [parent, edge] : at(id).in) {
+        const Shadow& p = at(parent);
+        if (!p.alive || p.g == kUnreachable) continue;
+        if (p.expansion->cells[static_cast<std::size_t>(edge)].phase == CellPhase::done) {
+          improve(step_over(parent, edge, id));
+        }
+      }
+    }
+    orphans_.clear();
   }
   /// Visits the children that done edges lead to.
   template <class Visit>
@@ -281,8 +323,8 @@ class ShadowGraph {
   bool changed_ = false;
   std::deque<Shadow> shadows_;   // by state id
   std::vector<Item> pending_;    // max-heap of Item's order: the most urgent on top
-  std::vector<Step> steps_;      // scratch
-  std::vector<StateId> settle_;  // scratch
+  std::vector<Step> steps_;      // to be taken; empty between calls
+  std::vector<StateId> settle_, orphans_;  // likewise
 };
 
 }  // namespace mamo::search
