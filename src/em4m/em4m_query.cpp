@@ -20,8 +20,8 @@ void Em4mQuery::search() {
 
 void Em4mQuery::search_rearrangements() {
   const WorldState start = WorldState::start_of(scene());
-  if (try_retrievals({}, start, retrieve(start, all_movables(), 0, WorkerId(0)), [](const Verdict&) { return true; }) !=
-      Submitted::rejected)
+  if (variant_.retrieves && try_retrievals({}, start, retrieve(start, all_movables(), 0, WorkerId(0)),
+                                           [](const Verdict&) { return true; }) != Submitted::rejected)
     return;
   regions_ = negative_goal_regions();
   if (options().explain && !regions_.empty()) notes_.region(regions_.front());
@@ -76,15 +76,22 @@ Vertex& Em4mQuery::add_vertex(int region, Vertex* parent, PushStep step, WorldSt
     if (!parent || parent->state[id] != v.state[id])
       v.loads[id.index()] = object_load(volume, scene()[id], v.state.X_WO(id));
   const RegionFeatures features = region_features(volume, v.loads);
-  v.promise = v.priority =
-      variant_.learned_priority ? learned_priority(features, settings_.priority) : lexicographic_priority(features);
+  if (variant_.on_vertex) variant_.on_vertex(v.state, features);
+  v.promise = v.priority = priority_of(v, features);
   if (!best_ || MorePromising()(&v, best_)) best_ = &v;
   return v;
+}
+
+Priority Em4mQuery::priority_of(const Vertex& vertex, const RegionFeatures& features) const {
+  if (variant_.order == Em4mOrder::breadth_first) return {-settings_.patience * vertex.pushes, 0, 0};
+  if (variant_.order == Em4mOrder::depth_first && features.phi2 > 0) return {settings_.patience * vertex.pushes, 0, 0};
+  return variant_.learned_priority ? learned_priority(features, settings_.priority) : lexicographic_priority(features);
 }
 
 void Em4mQuery::open(Vertex& vertex) {
   fewest_pushes_[{vertex.region, class_of(scene(), movables(), vertex.state)}] = vertex.pushes;
   open_.insert(&vertex);
+  vertex.retrieval_tried = vertex.retrieval_tried || !variant_.retrieves;
   if (!vertex.retrieval_tried) post_retrieval(vertex);
 }
 

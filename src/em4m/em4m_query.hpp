@@ -42,6 +42,7 @@ class Em4mQuery : public RearrangementQuery {
 
   // Vertices.
   Vertex& add_vertex(int region, Vertex* parent, PushStep step, WorldState state);
+  Priority priority_of(const Vertex& vertex, const RegionFeatures& features) const;
   void open(Vertex& vertex);
   void reorder(Vertex& vertex);
   void close(Vertex& vertex);

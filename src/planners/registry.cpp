@@ -4,6 +4,13 @@
 #include "mamo/selsim/selsim_planner.hpp"
 
 namespace mamo {
+
+#define MAMO_PLANNER(name, make, options) \
+  std::unique_ptr<Planner> make();        \
+  std::vector<OptionDoc> options();
+#include "planners/one_file_planners.inc"
+#undef MAMO_PLANNER
+
 namespace {
 
 struct Entry {
@@ -38,6 +45,9 @@ const std::vector<Entry>& entries() {
       {"em4m-posdb", make_em4m<false, true, true>, em4m_options},
       {"em4m-nodb", make_em4m<false, false, true>, em4m_options},
       {"em4m-tiebreak", make_em4m<true, true, false>, em4m_options},
+#define MAMO_PLANNER(name, make, options) {name, make, options},
+#include "planners/one_file_planners.inc"
+#undef MAMO_PLANNER
   };
   return all;
 }

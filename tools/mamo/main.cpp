@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   add_convert(app, session);
   add_bench(app, session);
   add_report(app, session);
+  add_train(app, session);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_text) {  // --help, --version

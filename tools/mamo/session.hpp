@@ -22,6 +22,7 @@ void add_info(CLI::App& app, Session& session);
 void add_convert(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);
 void add_report(CLI::App& app, Session& session);
+void add_train(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);
 
 /// --quiet, -v, --no-color; every subcommand has them.
