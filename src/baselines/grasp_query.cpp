@@ -62,7 +62,7 @@ PlanResult GraspQuery::run() {
   prepare();
   if (!over_) search();
   PlanStats& stats = result_.stats;
-  stats.simulations += evaluator_->simulations() + physics_->simulations();
+  stats.simulations += evaluator_->simulations() + physics_->simulations() - tracked_;
   stats.simulation_s += evaluator_->simulation_s() + physics_->simulation_s();
   stats.collision_checks += evaluator_->collision_checks();
   stats.wall_s = watch_.seconds();
@@ -148,6 +148,7 @@ void GraspQuery::add_segment(SegmentKind kind, const TimedPath& motion) {
 GraspQuery::Submitted GraspQuery::submit(std::vector<Eigen::VectorXd> path, const RetrievalPath& way) {
   if (path.back() != way.reach.front()) path.push_back(way.reach.front());
   const Track approach = track(reach_, *evaluator_, path, everything_, context_.stop);
+  tracked_ += approach.simulations;
   result_.stats.tracking_simulations += approach.simulations;
   if (approach.stopped) return stopped(), Submitted::ended;
   if (!approach.ok) {

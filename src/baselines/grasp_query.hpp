@@ -96,6 +96,7 @@ class GraspQuery {
   RelevantBodies everything_;
   std::vector<RetrievalPath> ways_;
 
+  std::int64_t tracked_ = 0;  // simulations of evaluator_ that went over a found path again
   bool over_ = false;
   Stopwatch watch_;
   PlanResult result_;

@@ -37,7 +37,7 @@ void SelSimRetrievalQuery::take_over(const PlanResult& reached) {
   PlanStats& stats = result().stats;
   const PlanStats& more = reached.stats;
   stats.expansions += more.expansions;
-  stats.simulations += more.simulations + more.tracking_simulations;
+  stats.simulations += more.simulations;
   stats.simulations_used += more.simulations_used;
   stats.simulation_s += more.simulation_s;
   stats.tracking_simulations += more.tracking_simulations;

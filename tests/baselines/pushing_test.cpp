@@ -97,6 +97,24 @@ TEST_P(PushingBaseline, GivesUpOnWhatCannotBePushed) {
   EXPECT_FALSE(result.found);
 }
 
+TEST_P(PushingBaseline, GoesOnWhenVerificationRejects) {
+  for (const SegmentKind kind : {SegmentKind::push, SegmentKind::grasp}) {
+    const fixtures::RefusesTheFirst judge(kind);
+    StopSource stop(120);
+    PlanContext context;
+    context.stop = &stop;
+    context.judge = &judge;
+    PlanOptions options;
+    options.set["grasps"] = kind == SegmentKind::push ? "1" : "20";
+    const Problem asked = kind == SegmentKind::push ? fixtures::light_can_in_the_way() : fixtures::nobody_in_the_way();
+    const PlanResult result = make_planner(GetParam())->plan(asked, options, context);
+    ASSERT_EQ(result.status, PlanStatus::solved) << result.reason;
+    EXPECT_TRUE(result.verified);
+    EXPECT_EQ(result.rejected_by_verification, judge.judged() - 1);
+    EXPECT_GE(judge.judged(), 2);
+  }
+}
+
 TEST_P(PushingBaseline, RefusesOtherTasksAndOptions) {
   const auto planner = make_planner(GetParam());
   EXPECT_EQ(planner->name(), GetParam());

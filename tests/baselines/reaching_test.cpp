@@ -98,6 +98,18 @@ TEST_P(ReachingBaseline, NeverFindsAPlanThatMovesWhatMustStay) {
     EXPECT_EQ(result.status, PlanStatus::limit) << result.reason;
 }
 
+TEST_P(ReachingBaseline, GoesOnWhenVerificationRejects) {
+  const fixtures::RefusesTheFirst judge(SegmentKind::approach);
+  StopSource stop(120);
+  PlanContext context;
+  context.stop = &stop;
+  context.judge = &judge;
+  const PlanResult result = make_planner(GetParam())->plan(fixtures::nobody_in_the_way(), {}, context);
+  ASSERT_EQ(result.status, PlanStatus::solved) << result.reason;
+  EXPECT_EQ(result.rejected_by_verification, judge.judged() - 1);
+  EXPECT_GE(judge.judged(), 2);
+}
+
 TEST_P(ReachingBaseline, RefusesUnknownOptions) {
   PlanOptions options;
   options.set = {{"no_such_option", "1"}};

@@ -7,6 +7,8 @@
 #include "support/push_problem.hpp"
 #include "support/retrieve_problem.hpp"
 
+#include "mamo/verify/verifier.hpp"
+
 namespace mamo::fixtures {
 
 /// The target in the open, two cans far from its way out.
@@ -39,5 +41,26 @@ inline Problem wedged_can_in_the_way() {
   problem.scene.objects[problem.scene.find("can").index()].constraints.max_displacement = 0.002;
   return problem;
 }
+
+/// Refuses the first plan at a segment of the given kind, whatever it does; then as the verifier.
+class RefusesTheFirst : public PlanJudge {
+ public:
+  explicit RefusesTheFirst(SegmentKind kind) : kind_(kind) {}
+  Verdict judge(const Problem& problem, const Plan& plan, StopSource& stop) const override {
+    Verdict verdict = Verifier().judge(problem, plan, stop);
+    if (judged_++ > 0 || !verdict.ok) return verdict;
+    verdict.ok = false;
+    Verdict::Finding finding;
+    while (plan.segments[static_cast<std::size_t>(finding.segment)].kind != kind_) ++finding.segment;
+    verdict.findings = {finding};
+    verdict.objects_after.resize(static_cast<std::size_t>(finding.segment));
+    return verdict;
+  }
+  int judged() const { return judged_; }
+
+ private:
+  const SegmentKind kind_;
+  mutable int judged_ = 0;
+};
 
 }  // namespace mamo::fixtures
