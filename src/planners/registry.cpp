@@ -1,7 +1,10 @@
 #include "mamo/planners/registry.hpp"
 
+#include "mamo/baselines/dogar_planner.hpp"
+#include "mamo/baselines/m4m_planner.hpp"
+#include "mamo/baselines/sampling_planner.hpp"
+#include "mamo/baselines/selsim_retrieval.hpp"
 #include "mamo/em4m/em4m_planner.hpp"
-#include "mamo/selsim/selsim_planner.hpp"
 
 namespace mamo {
 
@@ -22,7 +25,7 @@ struct Entry {
 template <bool kSelective, bool kLazy>
 std::unique_ptr<Planner> make_selsim() {
   const std::string name = std::string(kSelective ? "selsim" : "fullsim") + (kLazy ? "" : "-wastar");
-  return make_selsim_planner({name, kSelective, kLazy});
+  return make_selsim_with_retrieval({name, kSelective, kLazy});
 }
 
 template <bool kNegative, bool kPositive, bool kLearned>
@@ -34,17 +37,26 @@ std::unique_ptr<Planner> make_em4m() {
   return make_em4m_planner({"em4m" + ablation, kNegative, kPositive, kLearned});
 }
 
+template <SamplingAlgorithm kAlgorithm>
+std::unique_ptr<Planner> make_sampling() {
+  return make_sampling_planner(kAlgorithm);
+}
+
 const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
-      {"selsim", make_selsim<true, true>, selsim_options},
-      {"selsim-wastar", make_selsim<true, false>, selsim_options},
-      {"fullsim", make_selsim<false, true>, selsim_options},
-      {"fullsim-wastar", make_selsim<false, false>, selsim_options},
+      {"selsim", make_selsim<true, true>, selsim_with_retrieval_options},
+      {"selsim-wastar", make_selsim<true, false>, selsim_with_retrieval_options},
+      {"fullsim", make_selsim<false, true>, selsim_with_retrieval_options},
+      {"fullsim-wastar", make_selsim<false, false>, selsim_with_retrieval_options},
       {"em4m", make_em4m<true, true, true>, em4m_options},
       {"em4m-negdb", make_em4m<true, false, true>, em4m_options},
       {"em4m-posdb", make_em4m<false, true, true>, em4m_options},
       {"em4m-nodb", make_em4m<false, false, true>, em4m_options},
       {"em4m-tiebreak", make_em4m<true, true, false>, em4m_options},
+      {"m4m", make_m4m_planner, m4m_options},
+      {"dogar", make_dogar_planner, dogar_options},
+      {"rrt", make_sampling<SamplingAlgorithm::rrt>, sampling_options},
+      {"kpiece", make_sampling<SamplingAlgorithm::kpiece>, sampling_options},
 #define MAMO_PLANNER(name, make, options) {name, make, options},
 #include "planners/one_file_planners.inc"
 #undef MAMO_PLANNER

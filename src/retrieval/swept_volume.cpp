@@ -57,8 +57,9 @@ class SweptShape {
 
 class Sweep {
  public:
-  Sweep(const ForwardKinematics& kinematics, const Eigen::AlignedBox3d& space, double cell)
-      : kinematics_(kinematics), space_(space), step_(cell / 2), volume_(space, cell) {
+  /// Marks in `volume`, what lies inside `space`.
+  Sweep(const ForwardKinematics& kinematics, const Eigen::AlignedBox3d& space, VoxelVolume& volume)
+      : kinematics_(kinematics), space_(space), step_(volume.cell() / 2), volume_(volume) {
     const Robot& robot = kinematics.robot();
     const std::vector<bool> moves = robot.moving_links();
     travel_ = Eigen::VectorXd::Zero(robot.dof());
@@ -84,13 +85,11 @@ class Sweep {
     for (SweptShape& shape : shapes_) shape.finish(space_, volume_);
   }
 
-  VoxelVolume take() { return std::move(volume_); }
-
  private:
   const ForwardKinematics& kinematics_;
   Eigen::AlignedBox3d space_;
   double step_;  // m
-  VoxelVolume volume_;
+  VoxelVolume& volume_;
   std::vector<SweptShape> shapes_;
   Eigen::VectorXd travel_;  // m per unit of each joint, of any point of any shape
   std::vector<Eigen::Isometry3d> X_WL_;
@@ -101,14 +100,20 @@ class Sweep {
 VoxelVolume swept_volume(const Problem& problem, const ForwardKinematics& kinematics, const RetrievalPath& path,
                          const GraspCandidate& grasp, const WorldState& state, const Eigen::AlignedBox3d& bounds,
                          double cell) {
-  Sweep sweep(kinematics, bounds, cell);
+  VoxelVolume volume(bounds, cell);
+  Sweep sweep(kinematics, bounds, volume);
   sweep.along(path.approach);
   sweep.along(path.reach);
   const ObjectId object = std::get<Retrieve>(problem.task).object;
   const Eigen::Isometry3d X_TO = grasp.X_WT.inverse() * state.X_WO(object);
   for (const PlacedShape& s : problem.scene[object].shapes) sweep.add(s.shape, problem.robot.group.tip, X_TO * s.X_BS);
   sweep.along(path.extract);
-  return sweep.take();
+  return volume;
+}
+
+void add_arm_sweep(VoxelVolume& volume, const ForwardKinematics& kinematics, const std::vector<Eigen::VectorXd>& path) {
+  const Eigen::Vector3d top = volume.origin() + volume.cell() * volume.size().cast<double>();
+  Sweep(kinematics, Eigen::AlignedBox3d(volume.origin(), top), volume).along(path);
 }
 
 Eigen::AlignedBox3d object_space(const Scene& scene) {

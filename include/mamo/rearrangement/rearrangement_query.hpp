@@ -84,6 +84,7 @@ class RearrangementQuery {
   const ObjectSet& all_movables() const { return all_movables_; }
   PushPlanner& worker(WorkerId w) { return *workers_[w.index()]; }
   PushPlanner& worker() { return *workers_.front(); }
+  const ForwardKinematics& kinematics() const { return *kinematics_; }
   const RetrievalPlanner& retrievals() const { return *retrievals_; }
   const ObjectPathFinder& path_finder() const { return *path_finder_; }
   JobBoard& board() { return board_; }

@@ -107,6 +107,9 @@ VoxelVolume swept_volume(const Problem& problem, const ForwardKinematics& kinema
                          const GraspCandidate& grasp, const WorldState& state, const Eigen::AlignedBox3d& bounds,
                          double cell);
 
+/// Marks what the arm alone sweeps along a path, interpolated as finely.
+void add_arm_sweep(VoxelVolume& volume, const ForwardKinematics& kinematics, const std::vector<Eigen::VectorXd>& path);
+
 /// Where movable objects can be: the box around every object that may stand there and the supports under them, as high
 /// as the tallest. Bounds of negative goal regions and of the grid of the path finding.
 Eigen::AlignedBox3d object_space(const Scene& scene);
