@@ -231,6 +231,7 @@ bool LatticeModel::join(const Eigen::VectorXd& q, int chain, int link, Move& out
 
 std::vector<Eigen::VectorXd> LatticeModel::legs(const LatticeState& state, std::int32_t action) const {
   Move m;
+  action &= ~kContactForm;
   if (!move(state, action, m)) return {};
   if (action < kFirstJoin) return {configuration(m.anchor, m.bins)};
   const GoalChain& chain = chains_[static_cast<std::size_t>((action - kFirstJoin) >> 12)];
@@ -246,6 +247,7 @@ std::vector<Eigen::VectorXd> LatticeModel::legs(const LatticeState& state, std::
 
 bool LatticeModel::move(const LatticeState& state, std::int32_t action, Move& out) const {
   const int n = problem_.robot.dof();
+  action &= ~kContactForm;
   if (action < 4 * n) return primitive(state, action, out);
   const Eigen::VectorXd q = configuration(state.anchor, state.bins);
   if (action >= kFirstJoin) return join(q, (action - kFirstJoin) >> 12, (action - kFirstJoin) & 4095, out);

@@ -39,12 +39,13 @@ std::string failure_name(std::int32_t tag) {
 
 ManipulationLattice::ManipulationLattice(const Problem& problem, const LatticeModel& model,
                                          const RelevantBodies& bodies, const std::set<BannedEdge>& banned,
-                                         StopSource* stop)
+                                         StopSource* stop, std::shared_ptr<OutcomeMemo> memo)
     : problem_(problem),
       model_(model),
       bodies_(bodies),
       start_(WorldState::start_of(problem.scene)),
       banned_(banned),
+      memo_(std::move(memo)),
       stop_(stop) {
   for (ObjectId id : bodies.relevant.ids()) {
     const Object& object = problem.scene[id];
@@ -116,9 +117,11 @@ search::Cost ManipulationLattice::heuristic(const State& s) const {
 void ManipulationLattice::successors(Context& context, const State& s, std::vector<search::LazyEdge>& out) const {
   out.clear();
   model_.moves(s, context.moves);
+  const auto contact_cost = static_cast<search::Cost>(std::ceil(1000.0 * model_.options().contact_cost));
   for (const LatticeModel::Move& m : context.moves) {
     const search::Cost h = m.anchor != 0 ? 0 : model_.heuristic(model_.configuration(m.anchor, m.bins));
     out.push_back({m.action, m.cost, h});
+    if (contact_cost > 0) out.push_back({m.action | kContactForm, m.cost + contact_cost, h});
   }
 }
 
@@ -128,33 +131,91 @@ WorldState ManipulationLattice::world_of(const State& s) const {
   return world;
 }
 
+ManipulationLattice::Seen ManipulationLattice::look(Context& context, const State& s, std::int32_t action,
+                                                    const std::vector<Eigen::VectorXd>& legs) const {
+  const Edge edge{s, action & ~kContactForm};
+  {
+    const std::lock_guard lock(notes_->mutex);
+    if (const auto it = notes_->seen.find(edge); it != notes_->seen.end()) return it->second;
+  }
+  Seen seen;
+  const std::int64_t checks = context.evaluator->collision_checks();
+  const WorldState world = world_of(s);
+  Eigen::VectorXd from = model_.configuration(s.anchor, s.bins);
+  std::optional<Violation> violation;
+  for (; seen.leg < legs.size() && seen.glance == Glance::free; from = legs[seen.leg++])
+    if (seen.glance = context.evaluator->glance(from, legs[seen.leg], bodies_, world, violation);
+        seen.glance != Glance::free)
+      break;
+  if (violation) seen.tag = failure_tag(violation->kind, false);
+  seen.checks = context.evaluator->collision_checks() - checks;
+  const std::lock_guard lock(notes_->mutex);
+  notes_->seen.emplace(edge, seen);
+  return seen;
+}
+
+void ManipulationLattice::simulate(Context& context, const State& s, std::int32_t action,
+                                   const std::vector<Eigen::VectorXd>& legs, std::size_t first,
+                                   const std::atomic<bool>* cancel, search::EdgeOutcome<State>& outcome,
+                                   WorldState& world) const {
+  const std::int64_t checks = context.evaluator->collision_checks();
+  const double simulated_s = context.evaluator->simulation_s();
+  std::vector<Use> uses;
+  outcome.valid = true;
+  for (std::size_t leg = first; leg < legs.size() && outcome.valid; ++leg) {
+    const Eigen::VectorXd from = leg > 0 ? legs[leg - 1] : model_.configuration(s.anchor, s.bins);
+    EdgeResult result = context.evaluator->evaluate(from, legs[leg], bodies_, world, stop_, cancel);
+    outcome.cancelled = result.cancelled;
+    outcome.valid = result.valid;
+    outcome.charge += result.simulated;
+    if (result.violation) outcome.tag = failure_tag(result.violation->kind, result.simulated);
+    if (memo_ && result.motion_simulated) uses.push_back({result.motion_simulated, world});
+    if (outcome.valid) world = std::move(result.state);
+  }
+  outcome.work += context.evaluator->collision_checks() - checks;
+  outcome.costly_us = static_cast<float>(1e6 * (context.evaluator->simulation_s() - simulated_s));
+  if (uses.empty() || outcome.cancelled) return;
+  const std::lock_guard lock(notes_->mutex);
+  notes_->uses[{s, action}] = std::move(uses);
+}
+
 search::EdgeOutcome<LatticeState> ManipulationLattice::evaluate(Context& context, const State& s, std::int32_t action,
                                                                 const std::atomic<bool>* cancel) const {
   search::EdgeOutcome<State> outcome;
   LatticeModel::Move m;
   if (!model_.move(s, action, m) || (!banned_.empty() && banned_.contains({s, action}))) return outcome;
-  const std::int64_t checks = context.evaluator->collision_checks();
-  const double simulated_s = context.evaluator->simulation_s();
+  const std::vector<Eigen::VectorXd> legs = model_.legs(s, action);
   WorldState world = world_of(s);
-  Eigen::VectorXd from = model_.configuration(s.anchor, s.bins);
-  outcome.valid = true;
-  for (const Eigen::VectorXd& to : model_.legs(s, action)) {
-    EdgeResult result = context.evaluator->evaluate(from, to, bodies_, world, stop_, cancel);
-    outcome.cancelled = result.cancelled;
-    outcome.valid = result.valid;
-    outcome.charge += result.simulated;
-    if (result.violation) outcome.tag = failure_tag(result.violation->kind, result.simulated);
-    if (!outcome.valid) break;
-    world = std::move(result.state);
-    from = to;
+  if (model_.options().contact_cost <= 0) {
+    simulate(context, s, action, legs, 0, cancel, outcome, world);
+  } else {
+    const Seen seen = look(context, s, action, legs);
+    if (action < kContactForm) {
+      outcome.valid = seen.glance == Glance::free;
+      outcome.tag = seen.tag;
+      outcome.work = seen.checks;
+    } else if (seen.glance == Glance::touching) {
+      simulate(context, s, action, legs, seen.leg, cancel, outcome, world);
+    }
   }
-  outcome.work = context.evaluator->collision_checks() - checks;
-  outcome.costly_us = static_cast<float>(1e6 * (context.evaluator->simulation_s() - simulated_s));
   if (!outcome.valid) return outcome;
   outcome.child.anchor = m.anchor;
   outcome.child.bins = std::move(m.bins);
   for (ObjectId id : ids_) outcome.child.objects.push_back(world[id]);
   return outcome;
+}
+
+std::int32_t ManipulationLattice::on_commit(const State& s, std::int32_t action,
+                                            const search::EdgeReport& report) const {
+  if (!memo_ || report.charge == 0) return report.charge;
+  std::vector<Use> uses;
+  {
+    const std::lock_guard lock(notes_->mutex);
+    if (auto node = notes_->uses.extract({s, action})) uses = std::move(node.mapped());
+  }
+  std::int32_t charge = 0;
+  for (const Use& use : uses) charge += memo_->charged(*use.motion, bodies_.relevant, use.from);
+  return charge;
 }
 
 }  // namespace mamo

@@ -185,6 +185,14 @@ void Body::update_travel(double step_s) {
   update_bounds();
 }
 
+World::Ball Body::ball() const {
+  // Bullet's box of a shape, however turned, lies in the ball about its box at no turn.
+  btVector3 centre;
+  btScalar radius = 0;
+  shape_->bullet()->getBoundingSphere(centre, radius);
+  return {shape_->X_BC() * to_eigen(centre), radius + margin_ + 1e-6};
+}
+
 void Body::update_bounds() {
   btVector3 lo, hi;
   rigid_->getAabb(lo, hi);

@@ -9,6 +9,7 @@
 #include "physics/body_shape.hpp"
 
 #include "mamo/common/ids.hpp"
+#include "mamo/physics/world.hpp"
 
 class btRigidBody;
 
@@ -63,6 +64,8 @@ class Body {
   LinkId link() const { return link_; }
   /// Of the shape, widened by how far contact points reach and, if that is much, by travel().
   const Bounds& bounds() const { return bounds_; }
+  /// In the object's frame: holds bounds() wherever the body rests.
+  World::Ball ball() const;
   /// How far any of its points can get in this step at its present velocity (m). Set by drive() and integrate().
   double travel() const { return travel_; }
   bool awake() const { return awake_; }    // free bodies only

@@ -146,6 +146,8 @@ struct Evaluator::Impl {
     if (out.violation) out.violation->time_s = world.time_s();
     out.valid = !out.cancelled && !out.violation;
     out.interactions = log.interactions();
+    out.took_part = world.took_part();
+    out.swept = world.swept();
     for (const Interaction& i : out.interactions) out.second_order = out.second_order || i.a.valid();
     for (const ObjectId id : r.present->ids()) {
       if (id != r.held && !world.awake(id))
@@ -169,6 +171,7 @@ Evaluation Evaluator::evaluate(const EvaluationRequest& request) {
   return out;
 }
 
+const World& Evaluator::world() const { return impl_->world; }
 std::int64_t Evaluator::simulations() const { return impl_->simulations; }
 double Evaluator::simulation_s() const { return impl_->simulation_s; }
 

@@ -3,6 +3,7 @@
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "physics/body.hpp"
@@ -49,6 +50,8 @@ struct World::Impl {
   WorldState rest;  // where each object fell asleep last, or as given to reset
   std::int64_t steps = 0;
   int sleep_after = 0;  // steps
+  ObjectSet took_part;
+  std::vector<std::optional<Bounds>> swept;  // by body
   // Scratch of one step.
   std::vector<Eigen::Isometry3d> X_WL;
   std::vector<std::uint32_t> near;
@@ -94,6 +97,8 @@ struct World::Impl {
     present = wanted;
     rest = state;
     steps = 0;
+    took_part = ObjectSet(fixture.size());
+    swept.assign(bodies.size(), std::nullopt);
     driven.clear();
     free.clear();
     kinematics->link_poses(q, X_WL);
@@ -139,6 +144,32 @@ struct World::Impl {
       }
     }
     std::sort(near.begin(), near.end());
+  }
+
+  void record_sweep(int i) {
+    const Bounds& now = at(i).bounds();
+    std::optional<Bounds>& all = swept[static_cast<std::size_t>(i)];
+    if (!all) all = now;
+    for (std::size_t k = 0; k < 3; ++k) {
+      all->min[k] = std::min(all->min[k], now.min[k]);
+      all->max[k] = std::max(all->max[k], now.max[k]);
+    }
+  }
+  /// Of what moves, exactly the boxes that find_near() goes by.
+  void record_sweeps() {
+    for (const int d : driven)
+      if (at(d).moving()) record_sweep(d);
+    for (const int f : free)
+      if (at(f).awake()) record_sweep(f);
+  }
+  void record_participants() {
+    for (const int f : free)
+      if (at(f).awake()) took_part.insert(at(f).id());
+    for (const ContactPairs::Pair* p : pairs->visited()) {
+      if (p->points == 0) continue;
+      for (const int i : {pairs->first(*p), pairs->second(*p)})
+        if (at(i).id().valid()) took_part.insert(at(i).id());
+    }
   }
 
   void collide() {
@@ -210,9 +241,11 @@ struct World::Impl {
     for (const int f : free)
       if (at(f).awake()) at(f).apply_gravity();
     find_near();
+    record_sweeps();
     collide();
     pairs->forget([this](int a, int b) { return at(a).active() || at(b).active(); });
     wake_near();
+    record_participants();
     solve();
     for (const int d : driven) at(d).arrive(X_WL[at(d).link().index()]);
     for (const int f : free)
@@ -245,6 +278,19 @@ const QuantisedPose& World::rest_pose(ObjectId id) const {
 Eigen::Vector3d World::linear_velocity(ObjectId id) const { return impl_->of(id).linear_velocity(); }
 Eigen::Vector3d World::angular_velocity(ObjectId id) const { return impl_->of(id).angular_velocity(); }
 bool World::awake(ObjectId id) const { return impl_->of(id).active(); }
+
+const ObjectSet& World::took_part() const { return impl_->took_part; }
+
+std::vector<Eigen::AlignedBox3d> World::swept() const {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const std::optional<Bounds>& b : impl_->swept)
+    if (b)
+      boxes.emplace_back(Eigen::Map<const Eigen::Vector3d>(b->min.data()),
+                         Eigen::Map<const Eigen::Vector3d>(b->max.data()));
+  return boxes;
+}
+
+World::Ball World::ball(ObjectId id) const { return impl_->bodies[impl_->first_object + id.index()].ball(); }
 
 void World::contacts(std::vector<Contact>& out) const {
   out.clear();

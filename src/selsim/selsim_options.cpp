@@ -26,6 +26,9 @@ OptionTable SelSimOptions::table() {
   t.add("extend_step_deg", l.extend_step_deg, 0.1, 360, "length of such a step (deg)");
   t.add("chains", l.chains.chains, 0, 100,
         "seeded RRT-Connect paths among fixtures and immovables that states may join");
+  t.add("contact_cost", l.contact_cost, 0, 1e6,
+        "cost of an action that touches relevant objects, on top of its length (rad); 0: simulate as they come");
+  t.add("memo", l.memo, "outcomes of physics are kept for all planning iterations; changes counts and time only");
   t.add("joins", l.joins, 0, 100, "nearest chains that a state may join (the start may join all)");
   t.add("chain_nodes", l.chains.max_nodes, 2, 1000000, "budget of each such path, in tree nodes");
   t.add("heuristic_cell", l.heuristic_cell, 0.005, 0.5, "cell of the breadth-first heuristic (m)");

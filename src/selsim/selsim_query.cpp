@@ -23,6 +23,8 @@ void SelSimQuery::prepare() {
   executor_ = std::make_unique<Executor>(std::max(1, options_.threads));
   for (int w = 0; w < executor_->workers(); ++w)
     workers_.push_back(std::make_unique<EdgeEvaluator>(problem_, kinematics_, settings_.lattice.collision));
+  if (settings_.lattice.memo) memo_ = workers_.front()->make_memo();
+  for (const auto& worker : workers_) worker->use_memo(memo_);
   everything_ = make_relevant_bodies(problem_, ObjectSet::all(problem_.scene));
   // Bodies that stay put and may not be touched: walls for goal configurations and heuristic alike.
   ObjectSet immovable = ObjectSet::of_kind(problem_.scene, ObjectKind::immovable);
@@ -35,15 +37,16 @@ void SelSimQuery::prepare() {
   const TrackedPoint point = tracked_point(*kinematics_);
   ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator().collision(), walls, options_.seed,
                                    settings_.lattice.goal_configurations);
-  std::vector<GoalChain> chains = make_goal_chains(problem_, evaluator().collision(), walls, goal.configurations,
-                                                   options_.seed, settings_.lattice.chains, context_.stop);
-  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal), std::move(chains),
-                                          point, walls);
+  GoalChains chains = make_goal_chains(problem_, evaluator().collision(), walls, goal.configurations, options_.seed,
+                                       settings_.lattice.chains, context_.stop);
+  chain_budget_used_up_ = chains.budget_used_up;
+  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal),
+                                          std::move(chains.chains), point, walls);
 }
 
 SelSimQuery::Search SelSimQuery::search_once() {
   const ManipulationLattice lattice(problem_, *model_, make_relevant_bodies(problem_, relevant_), banned_,
-                                    context_.stop);
+                                    context_.stop, memo_);
   std::vector<ManipulationLattice::Context> contexts;
   for (const auto& worker : workers_) contexts.push_back({worker.get(), {}});
   search::ParallelOptions parallel;
@@ -79,6 +82,12 @@ SelSimQuery::Search SelSimQuery::search_once() {
   signature_.add(found.order_hash);
   merged_ = merged_ || found.merged;
   return found;
+}
+
+std::int64_t SelSimQuery::length(const std::vector<Eigen::VectorXd>& path) {
+  double sum = 0;
+  for (std::size_t k = 1; k < path.size(); ++k) sum += (path[k] - path[k - 1]).norm();
+  return static_cast<std::int64_t>(std::ceil(1000.0 * sum - 1e-6));
 }
 
 SelSimQuery::Candidate SelSimQuery::candidate_of(const Search& found) const {
@@ -137,9 +146,10 @@ bool SelSimQuery::accept(const Search& found) {
   if (!result_.found) result_.stats.found_s = watch_.seconds();
   result_.found = true;
   result_.second_order_contacts = raw.track.second_order;
-  result_.cost = found.cost;
   result_.suboptimality_bound = found.bound;
+  result_.cost = length(smooth.path);
   if (smooth.track.ok && judged(smooth)) return true;
+  result_.cost = length(raw.path);
   if (smooth.track.ok) ++result_.stats.failures["smoothing_rejected"];
   if (judged(raw)) return true;
   if (raw.verdict.stopped) return false;
@@ -188,6 +198,7 @@ PlanResult& SelSimQuery::finish(PlanStatus status, std::string reason) {
     result_.stats.simulations += worker->simulations();
     result_.stats.simulation_s += worker->simulation_s();
   }
+  result_.stats.simulations = std::max(result_.stats.simulations, result_.stats.simulations_used);
   if (status != PlanStatus::solved) result_.plan = {};
   for (const Segment& segment : result_.plan.segments)
     for (std::size_t k = 0; k < segment.motion.t.size(); ++k) {
@@ -235,6 +246,9 @@ PlanResult& SelSimQuery::no_path(const Search& search) {
   if (!banned_.empty()) doubt = "motions that the replay refuted were banned";
   if (model_->goal().ik_budget_used_up)
     doubt = "inverse kinematics found fewer goal configurations than asked for (goal_configurations lowers that)";
+  if (chain_budget_used_up_)
+    doubt =
+        "a way to the goal was searched until its budget was used up (chain_nodes raises it, chains=0 does without)";
   if (!doubt.empty()) return finish(PlanStatus::limit, "the lattice is exhausted, which proves nothing: " + doubt);
   return finish(PlanStatus::proven,
                 "no plan exists in this lattice (joint_resolution_deg, long_step_deg, short_step_deg, "

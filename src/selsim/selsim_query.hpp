@@ -39,6 +39,9 @@ class SelSimQuery {
 
   void prepare();
   Search search_once();
+  /// Of a joint path (milliradians), at most the cost that the search gave to it: each of its edges is rounded up and
+  /// pays for contacts besides. So the search's bound holds for it, and for what smoothing leaves of it all the more.
+  static std::int64_t length(const std::vector<Eigen::VectorXd>& path);
   Candidate candidate_of(const Search& found) const;
   /// Tracks, smooths and judges a found path. True: the result is complete. False: learn() has been told.
   bool accept(const Search& found);
@@ -62,7 +65,9 @@ class SelSimQuery {
   std::shared_ptr<const ForwardKinematics> kinematics_;
   std::unique_ptr<Executor> executor_;
   std::vector<std::unique_ptr<EdgeEvaluator>> workers_;  // one per thread; the first also tracks and smooths
+  std::shared_ptr<OutcomeMemo> memo_;                    // theirs; null: not asked for
   std::unique_ptr<LatticeModel> model_;
+  bool chain_budget_used_up_ = false;
   RelevantBodies everything_;
   ObjectSet relevant_;
   std::set<BannedEdge> banned_;

@@ -29,7 +29,7 @@ Track track(const Problem& problem, EdgeEvaluator& evaluator, const std::vector<
   out.edge_of_point = {-1};
   for (std::size_t k = 1; k < path.size(); ++k) {
     EdgeResult edge = evaluator.evaluate(path[k - 1], path[k], bodies, out.state, stop, nullptr);
-    out.simulations += edge.simulated;
+    out.simulations += evaluator.counts(edge, bodies, out.state);
     if (edge.cancelled) {
       out.stopped = true;
       return out;

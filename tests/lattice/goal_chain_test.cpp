@@ -13,13 +13,16 @@ struct Chains {
     for (ObjectId id : all.forbidden.ids())
       if (!problem.scene[id].movable()) walls.insert(id);
     goal = make_reach_goal(problem, *kinematics, tracked_point(*kinematics), checker, walls, seed, 6);
-    chains = make_goal_chains(problem, checker, walls, goal.configurations, seed, options, nullptr);
+    GoalChains made = make_goal_chains(problem, checker, walls, goal.configurations, seed, options, nullptr);
+    chains = std::move(made.chains);
+    budget_used_up = made.budget_used_up;
   }
   std::shared_ptr<const ForwardKinematics> kinematics;
   CollisionChecker checker;
   ObjectSet walls;
   ReachGoal goal;
   std::vector<GoalChain> chains;
+  bool budget_used_up = false;
 };
 
 TEST(GoalChain, LeadsFromTheStartToAGoalAmongWhatStays) {
@@ -57,9 +60,14 @@ TEST(GoalChain, DoesNotSeeMovablesAndRepeatsForTheSameSeed) {
 TEST(GoalChain, IsLeftOutWhenItsBudgetIsUsedUp) {
   GoalChainOptions options;
   options.max_nodes = 2;
-  EXPECT_LT(Chains(fixtures::reach_problem(0, 4, 1), 1, options).chains.size(), 3u);
+  const Chains cut(fixtures::reach_problem(0, 4, 1), 1, options);
+  EXPECT_LT(cut.chains.size(), 3u);
+  EXPECT_TRUE(cut.budget_used_up);
   options.chains = 0;
-  EXPECT_TRUE(Chains(fixtures::reach_problem(0, 0, 1), 1, options).chains.empty());
+  const Chains none(fixtures::reach_problem(0, 0, 1), 1, options);
+  EXPECT_TRUE(none.chains.empty());
+  EXPECT_FALSE(none.budget_used_up);
+  EXPECT_FALSE(Chains(fixtures::reach_problem(0, 0, 4)).budget_used_up);
 }
 
 }  // namespace

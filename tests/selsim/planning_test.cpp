@@ -136,9 +136,59 @@ TEST(SelectiveSimulation, ABoxedInStartIsProvenToHaveNoPlan) {
   }
   PlanOptions options;
   options.max_expansions = 50000;
+  const PlanResult doubtful = Query(problem, "selsim", options).result;
+  EXPECT_EQ(doubtful.status, PlanStatus::limit) << "the chains' budget was used up";
+  EXPECT_NE(doubtful.reason.find("chain_nodes"), std::string::npos) << doubtful.reason;
+  options.set = {{"chains", "0"}};
   const PlanResult r = Query(problem, "selsim", options).result;
   EXPECT_EQ(r.status, PlanStatus::proven) << r.reason << " after " << r.stats.expansions << " expansions";
   EXPECT_EQ(exit_code(r.status), 2);
+}
+
+TEST(SelectiveSimulation, TheCostIsTheLengthOfThePlanThatIsReturned) {
+  const Problem problem = shipped("demo.yaml");
+  for (const bool smooth : {true, false}) {
+    PlanOptions options;
+    options.smooth = smooth;
+    const PlanResult r = Query(problem, "selsim", options).result;
+    ASSERT_EQ(r.status, PlanStatus::solved);
+    double length = 0;
+    const std::vector<Eigen::VectorXd>& q = r.plan.segments.front().motion.q;
+    for (std::size_t k = 1; k < q.size(); ++k) length += (q[k] - q[k - 1]).norm();
+    EXPECT_NEAR(static_cast<double>(r.cost), 1000 * length, 1.0) << smooth;
+  }
+}
+
+/// A goal in joint space makes the heuristic good enough for weight 1, whose plan costs the least.
+TEST(SelectiveSimulation, PlansCostAtMostTheirBoundTimesTheCheapest) {
+  int compared = 0;
+  for (int index = 0; index < 8; ++index) {
+    Problem problem = fixtures::reach_problem(4, 1, static_cast<std::uint64_t>(index) + 1);
+    const auto& pose = std::get<ReachPose>(problem.task);
+    const ForwardKinematics kinematics(problem.robot);
+    const auto q = InverseKinematics(kinematics).solve(pose.X_WT, problem.q_start, 1, {});
+    if (!q) continue;
+    ReachJoints task;
+    task.q = *q;
+    problem.task = task;
+    PlanOptions options;
+    options.smooth = false;
+    options.max_expansions = 300;
+    options.set = {{"long_step_deg", "30"}, {"short_distance", "0"}, {"tip_step", "0"}, {"exact_objects", "true"}};
+    options.weight = 1;
+    const PlanResult cheapest = Query(problem, "fullsim", options).result;
+    if (cheapest.status != PlanStatus::solved) continue;
+    for (const double weight : {1.0, 2.0, 10.0, 100.0}) {
+      options.weight = weight;
+      const PlanResult r = Query(problem, "selsim", options).result;
+      if (r.status != PlanStatus::solved) continue;
+      ++compared;
+      EXPECT_LE(static_cast<double>(r.cost), r.suboptimality_bound * static_cast<double>(cheapest.cost))
+          << "seed " << index + 1 << " weight " << weight;
+      EXPECT_LE(r.suboptimality_bound, weight);
+    }
+  }
+  EXPECT_GE(compared, 8);
 }
 
 TEST(SelectiveSimulation, LimitsEndTheSearchAndNameTheirOption) {

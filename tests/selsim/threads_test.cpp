@@ -54,6 +54,29 @@ TEST(PlansOnThreads, AreTheSerialPlanForEveryNumberOfThreadsAndBatch) {
   }
 }
 
+TEST(PlansOnThreads, AreTheSameWithoutTheMemoWhichOnlySavesSimulations) {
+  std::int64_t with = 0, without = 0;
+  for (int index = 0; index < (long_run() ? 30 : 5); ++index) {
+    const Problem problem = tabletop(8 + index % 9, index % 4, 11, index);
+    for (const char* contact_cost : {"0", "2"}) {
+      PlanOptions options = limited(1000000, 300);
+      options.set = {{"contact_cost", contact_cost}};
+      const PlanResult a = planned(problem, "selsim", options);
+      options.set["memo"] = "false";
+      options.threads = 1 + index % 3;
+      const PlanResult b = planned(problem, "selsim", options);
+      EXPECT_EQ(a.signature, b.signature) << problem.name;
+      EXPECT_EQ(a.cost, b.cost);
+      EXPECT_EQ(a.stats.failures, b.stats.failures);
+      EXPECT_EQ(a.stats.collision_checks, b.stats.collision_checks);
+      EXPECT_LE(a.stats.simulations_used, b.stats.simulations_used) << problem.name;
+      with += a.stats.simulations_used + a.stats.tracking_simulations;
+      without += b.stats.simulations_used + b.stats.tracking_simulations;
+    }
+  }
+  EXPECT_LT(with, without);
+}
+
 TEST(PlansOnThreads, LeaveNoMemoryBehind) {
   if (kSanitized) GTEST_SKIP() << "sanitizers keep freed memory";
   const int plans = long_run() ? 500 : 40;

@@ -36,9 +36,10 @@ struct LatticeKit {
     const TrackedPoint point = tracked_point(*kinematics);
     ReachGoal goal =
         make_reach_goal(p, *kinematics, point, evaluator.collision(), walls, 1, options.goal_configurations);
-    std::vector<GoalChain> chains =
+    GoalChains chains =
         make_goal_chains(p, evaluator.collision(), walls, goal.configurations, 1, options.chains, nullptr);
-    model = std::make_unique<LatticeModel>(p, kinematics, options, std::move(goal), std::move(chains), point, walls);
+    model =
+        std::make_unique<LatticeModel>(p, kinematics, options, std::move(goal), std::move(chains.chains), point, walls);
   }
   RelevantBodies only(std::initializer_list<int> ids) const {
     ObjectSet set = ObjectSet::of_kind(problem.scene, ObjectKind::immovable);

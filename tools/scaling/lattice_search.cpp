@@ -24,10 +24,10 @@ LatticeSearch::LatticeSearch(Problem problem) : problem_(std::move(problem)) {
   const TrackedPoint point = tracked_point(*kinematics_);
   ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator_->collision(), walls, kSeed,
                                    options.goal_configurations);
-  std::vector<GoalChain> chains = make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations, kSeed,
-                                                   options.chains, nullptr);
-  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, options, std::move(goal), std::move(chains), point,
-                                          walls);
+  GoalChains chains =
+      make_goal_chains(problem_, evaluator_->collision(), walls, goal.configurations, kSeed, options.chains, nullptr);
+  model_ = std::make_unique<LatticeModel>(problem_, kinematics_, options, std::move(goal), std::move(chains.chains),
+                                          point, walls);
   lattice_ = std::make_unique<ManipulationLattice>(problem_, *model_, bodies, banned_, nullptr);
 }
 

@@ -27,10 +27,15 @@ struct GoalChainOptions {
   int shortcuts = 60;    // attempts to shorten a chain
 };
 
+struct GoalChains {
+  std::vector<GoalChain> chains;
+  bool budget_used_up = false;  // some chain was not found within max_nodes (or before the stop)
+};
+
 /// Depends on the robot, the bodies in `walls` (at their start poses), start, goals and seed only: movable objects
 /// are no obstacle. Empty without goals. `checker` is left with the scene's start state.
-std::vector<GoalChain> make_goal_chains(const Problem& problem, CollisionChecker& checker, const ObjectSet& walls,
-                                        const std::vector<Eigen::VectorXd>& goals, std::uint64_t seed,
-                                        const GoalChainOptions& options, StopSource* stop);
+GoalChains make_goal_chains(const Problem& problem, CollisionChecker& checker, const ObjectSet& walls,
+                            const std::vector<Eigen::VectorXd>& goals, std::uint64_t seed,
+                            const GoalChainOptions& options, StopSource* stop);
 
 }  // namespace mamo

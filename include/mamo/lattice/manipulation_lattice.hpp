@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <vector>
 
@@ -26,6 +28,12 @@ struct LatticeState {
   std::vector<QuantisedPose> objects;  // relevant objects in order of id
   friend auto operator<=>(const LatticeState&, const LatticeState&) = default;
 };
+
+/// With LatticeOptions::contact_cost every action has two forms: its own number is the form that touches no relevant
+/// object (never simulated), the number plus this the form that does, which costs more. Every motion has exactly one
+/// of the two, and with fewer relevant objects it is the same or the cheaper one, so that Theorem 5.2 and the bound,
+/// on the cost with contacts included, stand. Motions free of contact are thus tried first.
+inline constexpr std::int32_t kContactForm = 1 << 30;
 
 /// An edge that tracking or verification refuted: not taken again in this query.
 struct BannedEdge {
@@ -121,7 +129,8 @@ class ManipulationLattice {
   };
 
   ManipulationLattice(const Problem& problem, const LatticeModel& model, const RelevantBodies& bodies,
-                      const std::set<BannedEdge>& banned, StopSource* stop);
+                      const std::set<BannedEdge>& banned, StopSource* stop,
+                      std::shared_ptr<OutcomeMemo> memo = nullptr);
 
   State start() const;
   std::uint64_t hash(const State& s) const;
@@ -132,6 +141,8 @@ class ManipulationLattice {
   void successors(Context& context, const State& s, std::vector<search::LazyEdge>& out) const;
   search::EdgeOutcome<State> evaluate(Context& context, const State& s, std::int32_t action,
                                       const std::atomic<bool>* cancel) const;
+  /// The simulations that the search on one thread would have run for this edge (OutcomeMemo::charged).
+  std::int32_t on_commit(const State& s, std::int32_t action, const search::EdgeReport& report) const;
 
   /// Where all objects are in a state: relevant ones as the state says, the others at their start.
   WorldState world_of(const State& s) const;
@@ -140,6 +151,28 @@ class ManipulationLattice {
  private:
   using PoseClass = std::array<std::int32_t, 9>;
   PoseClass pose_class(std::size_t k, const QuantisedPose& pose) const;
+  /// What the collision checker says of an action: free, blocked at or touching from a leg on.
+  struct Seen {
+    Glance glance = Glance::free;
+    std::size_t leg = 0;
+    std::int32_t tag = 0;
+    std::int64_t checks = 0;
+  };
+  Seen look(Context& context, const State& s, std::int32_t action, const std::vector<Eigen::VectorXd>& legs) const;
+  void simulate(Context& context, const State& s, std::int32_t action, const std::vector<Eigen::VectorXd>& legs,
+                std::size_t first, const std::atomic<bool>* cancel, search::EdgeOutcome<State>& outcome,
+                WorldState& world) const;
+  using Edge = BannedEdge;
+  struct Use {
+    std::shared_ptr<const SimulatedMotion> motion;
+    WorldState from;
+  };
+  /// What evaluations leave for one another and for on_commit(); contents depend on threads, answers do not.
+  struct Notes {
+    std::mutex mutex;
+    std::map<Edge, Seen> seen;              // of the first form, until the second has been evaluated
+    std::map<Edge, std::vector<Use>> uses;  // of physics, until the edge commits
+  };
 
   const Problem& problem_;
   const LatticeModel& model_;
@@ -148,7 +181,9 @@ class ManipulationLattice {
   std::vector<bool> symmetric_;  // rotation about the object's z axis does not matter
   WorldState start_;
   const std::set<BannedEdge>& banned_;
+  std::shared_ptr<OutcomeMemo> memo_;
   StopSource* stop_;
+  std::shared_ptr<Notes> notes_ = std::make_shared<Notes>();
 };
 
 }  // namespace mamo

@@ -23,6 +23,8 @@ struct Evaluation {
   std::vector<Interaction> interactions;  // sorted by (first time, a, b): robot-object and object-object
   bool second_order = false;              // some interaction is between two objects
   int steps = 0;
+  ObjectSet took_part;                     // World::took_part(): on these and the motion alone the outcome depends
+  std::vector<Eigen::AlignedBox3d> swept;  // World::swept(); what is asleep clear of these did not take part
 };
 
 struct EvaluationRequest {
@@ -55,9 +57,11 @@ class Evaluator {
   ~Evaluator();
   Evaluation evaluate(const EvaluationRequest& request);
   std::int64_t simulations() const;  // run so far
-  double simulation_s() const;       // thread CPU time spent in them
+  World::Ball ball(ObjectId id) const { return world().ball(id); }
+  double simulation_s() const;  // thread CPU time spent in them
 
  private:
+  const World& world() const;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

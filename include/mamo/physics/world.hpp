@@ -69,6 +69,19 @@ class World {
   /// From now on the object moves with the link, as robot (held). Its pose in the link is kept as it is.
   void attach(ObjectId id, LinkId link);
 
+  /// Objects that took part in what happened since reset(): awake, or in reach of contact points. The others
+  /// changed nothing by being present.
+  const ObjectSet& took_part() const;
+  /// Boxes (world, m) of all that moved since reset(), one per body, over all steps. An object asleep whose ball
+  /// meets none of them changes nothing by being present.
+  std::vector<Eigen::AlignedBox3d> swept() const;
+  /// A ball in the object's frame that holds whatever of it contact points reach, wherever it rests.
+  struct Ball {
+    Eigen::Vector3d centre;  // m
+    double radius;           // m
+  };
+  Ball ball(ObjectId id) const;
+
   /// Pairs of bodies (a < b, sorted; objects, fixtures and the floor, not the robot; at least one an object) of
   /// which `state` puts the surfaces closer than `tolerance` (m). Ends what reset() began: call reset() next.
   std::vector<std::pair<ObjectId, ObjectId>> touching(const WorldState& state, double tolerance);

@@ -10,7 +10,10 @@
 
 namespace mamo {
 
-/// The four planners of the paper's Table I.
+/// The cost in a result is the length of the plan that is returned (milliradians), smoothed or not. The bound was
+/// proven for the cost of the path that the search found, which is no smaller, so it holds for the plan: length <=
+/// bound x the cheapest path of the lattice, length and contact_cost together. The four planners of the paper's Table
+/// I.
 struct SelSimVariant {
   std::string name = "selsim";
   bool selective = true;  // false: C_R is all objects from the start
