@@ -31,11 +31,10 @@ void Em4mQuery::expand(Vertex& vertex) {
   signature().add(content_hash(movables(), vertex.state));
   const ObjectPathsResult found = paths_of(vertex);
   if (found.stopped) return stopped();
-  if (!found.solved || found.paths.empty()) {
-    const char* why = found.solved ? "mapf_moves_nobody" : found.budget_used_up ? "mapf_budget" : "mapf_unsolvable";
-    ++result().stats.failures[why];
-    return close(vertex);
-  }
+  if (!found.solved) ++result().stats.failures[found.budget_used_up ? "mapf_budget" : "mapf_unsolvable"];
+  if (found.solved && found.paths.empty()) ++result().stats.failures["mapf_moves_nobody"];
+  // Paths that conflict are better than none: pushes are judged by physics, and other objects move only later.
+  if (found.paths.empty()) return close(vertex);
   if (options().explain) notes_.paths(static_cast<int>(result().stats.expansions), found.paths, vertex.state);
   std::vector<const ObjectPath*> paths;
   for (const ObjectPath& path : found.paths)

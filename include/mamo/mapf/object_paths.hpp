@@ -49,7 +49,8 @@ struct ObjectPathsResult {
   bool solved = false;
   bool stopped = false;
   bool budget_used_up = false;    // not solved, but not proven unsolvable either
-  std::vector<ObjectPath> paths;  // in order of object id; empty: nobody has to move
+  std::vector<ObjectPath> paths;  // in order of object id; empty: nobody has to move. With the budget used up: the
+                                  // least conflicting ones, for want of better
   std::int64_t cost = 0;
   std::int64_t low_level_expansions = 0, high_level_nodes = 0;
   std::vector<ObjectId> stuck;  // objects without any path of their own (when unsolved)

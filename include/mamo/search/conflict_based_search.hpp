@@ -1,6 +1,7 @@
 // Conflict-based search: paths of several agents that are never in each other's way.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <tuple>
 #include <vector>
@@ -20,7 +21,7 @@ enum class CbsStatus { solved, unsolvable, budget, stopped };
 
 struct CbsResult {
   CbsStatus status = CbsStatus::unsolvable;
-  std::vector<AgentPath> paths;  // per agent, if solved
+  std::vector<AgentPath> paths;  // per agent, if solved; with status budget those of the node with the fewest conflicts
   Cost cost = 0;                 // sum over agents
   Cost lower_bound = 0;          // no solution is cheaper; cost <= w * lower_bound
   std::int64_t expansions = 0, nodes = 0;
@@ -46,6 +47,12 @@ class ConflictBasedSearch {
     result.status = search(result);
     result.expansions = low_level_.expansions();
     result.nodes = static_cast<std::int64_t>(nodes_.size());
+    if (result.status == CbsStatus::budget && !nodes_.empty()) {
+      const auto& best = *std::ranges::min_element(
+          nodes_, {}, [](const auto& node) { return std::tuple(node->conflict_count, node->cost); });
+      for (const auto& path : best->paths) result.paths.push_back(*path);
+      result.cost = best->cost;
+    }
     return result;
   }
 
