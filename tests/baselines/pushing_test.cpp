@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support/baseline_problems.hpp"
 #include "support/planned.hpp"
 
@@ -47,10 +49,11 @@ TEST_P(PushingBaseline, PushesALightObjectAway) {
 }
 
 TEST_P(PushingBaseline, ThreadsDoNotChangeTheResult) {
-  const Problem problem = fixtures::light_can_in_the_way();
+  const Problem problem = fixtures::several_in_the_way(2);
   PlanOptions options = one_grasp();
-  options.seed = 3;
   const PlanResult one = solve(problem, options);
+  EXPECT_GE(one.stats.push_attempts, 2);
+  EXPECT_TRUE(one.verified);
   const PlanResult again = solve(problem, options);
   EXPECT_EQ(one.signature, again.signature);
   for (const int threads : {2, 3}) {
@@ -124,6 +127,26 @@ TEST_P(PushingBaseline, RefusesOtherTasksAndOptions) {
   PlanOptions options;
   options.set = {{"no_such_option", "1"}};
   EXPECT_THROW(solve(fixtures::nobody_in_the_way(), options), std::invalid_argument);
+}
+
+TEST(Dogar, EveryObjectIsPushedOnceAndMovesAtNoOtherTime) {
+  const Problem problem = fixtures::several_in_the_way(2);
+  const PlanResult result = fixtures::planned(problem, "dogar", one_grasp());
+  ASSERT_EQ(result.status, PlanStatus::solved) << result.reason;
+  const std::vector<Segment>& segments = result.plan.segments;
+  std::set<ObjectId> pushed;
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (segments[s].kind != SegmentKind::push) continue;
+    const ObjectId object = segments[s].object;
+    EXPECT_TRUE(pushed.insert(object).second);
+    const Eigen::Isometry3d X_start = problem.scene[object].X_WO, X_end = segments[s].objects_after.at(object);
+    EXPECT_GT((X_end.translation() - X_start.translation()).norm(), 0.01);
+    for (std::size_t other = 0; other < segments.size(); ++other) {
+      const Eigen::Isometry3d& X = segments[other].objects_after.at(object);
+      EXPECT_LT((X.translation() - (other < s ? X_start : X_end).translation()).norm(), 1e-3) << "segment " << other;
+    }
+  }
+  EXPECT_GE(pushed.size(), 2u);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PushingBaseline, testing::Values("m4m", "dogar"), [](const auto& p) { return p.param; });

@@ -35,7 +35,20 @@ inline Problem light_can_in_the_way(double mass = 0.2) {
   return problem;
 }
 
-/// The same, but whoever moves the can violates its constraints.
+/// Two cans before the target, one behind the other, and clutter on both sides.
+inline Problem several_in_the_way(std::uint64_t seed) {
+  Scene scene = cluttered_shelf(7, 2, seed);
+  std::erase_if(scene.objects, [](const Object& o) {
+    return !o.fixture() && std::abs(o.X_WO.translation().y() + 0.5) < 0.17 && o.X_WO.translation().x() < 0.85;
+  });
+  scene.objects.push_back(standing_cylinder("near", 0.54, -0.52, 0.035, 0.15));
+  scene.objects.push_back(standing_cylinder("far", 0.63, -0.48, 0.035, 0.15));
+  Problem problem = retrieve_problem(std::move(scene), target_can(0.75, -0.5), 0.0);
+  for (Object& object : problem.scene.objects) constrain(object);
+  return problem;
+}
+
+/// light_can_in_the_way(), but whoever moves the can violates its constraints.
 inline Problem wedged_can_in_the_way() {
   Problem problem = light_can_in_the_way();
   problem.scene.objects[problem.scene.find("can").index()].constraints.max_displacement = 0.002;
