@@ -64,16 +64,21 @@ class Playback(unittest.TestCase):
         self.value("player.stage.invalidate(); player.stage.frame(0)")
         return self.value("(player.stage.invalidate(), player.stage.frame(0), document.getElementById('canvas').toDataURL())")
 
+    def wait_until_played(self, seconds):
+        """A busy machine draws few frames: what counts is that playback gets there."""
+        patience = time.monotonic() + 30
+        while self.value("player.time") <= seconds and time.monotonic() < patience:
+            time.sleep(0.1)
+        self.assertGreater(self.value("player.time"), seconds)
+
     def play_and_scrub(self):
         duration = self.value("player.replay.duration")
         self.assertGreater(duration, 1)
         self.value("player.seek(0)")
         first = self.image()
         self.chromium.click_on("#play")
-        time.sleep(0.8)
+        self.wait_until_played(0.2)
         self.chromium.press(" ", 32)
-        played = self.value("player.time")
-        self.assertGreater(played, 0.2)
         self.assertFalse(self.value("player.playing"))
         box = self.value("(() => { const b = document.getElementById('timeline').getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })()")
         self.chromium.mouse("mousePressed", box[0] + box[2] * 0.3, box[1] + 8, "left", 1)
@@ -186,8 +191,7 @@ class Playback(unittest.TestCase):
             self.assertLessEqual(self.value("document.documentElement.scrollWidth"), 390)
             self.assertGreater(self.value("document.getElementById('canvas').getBoundingClientRect().height"), 250)
             self.chromium.click_on("#play")
-            time.sleep(0.5)
-            self.assertGreater(self.value("player.time"), 0.05)
+            self.wait_until_played(0.05)
             self.shot("phone")
             self.chromium.click_on("#column")
             self.shot("phone-details")
