@@ -1,6 +1,11 @@
 #include "mamo/lattice/goal.hpp"
 
 namespace mamo {
+namespace {
+
+constexpr int kHardStarts = 500;  // of inverse kinematics where the usual number found nothing
+
+}  // namespace
 
 ReachGoal make_reach_goal(const Problem& problem, const ForwardKinematics& kinematics, const TrackedPoint& point,
                           CollisionChecker& checker, const ObjectSet& walls, std::uint64_t seed, int count) {
@@ -23,6 +28,11 @@ ReachGoal make_reach_goal(const Problem& problem, const ForwardKinematics& kinem
   const auto& pose = std::get<ReachPose>(problem.task);
   const InverseKinematics ik(kinematics);
   goal.configurations = ik.solve_many(pose.X_WT, problem.q_start, seed, count, {}, free);
+  if (goal.configurations.empty()) {  // a hard pose is worth a longer look
+    IkOptions longer;
+    longer.starts = kHardStarts;
+    goal.configurations = ik.solve_many(pose.X_WT, problem.q_start, seed, count, longer, free);
+  }
   goal.ik_budget_used_up = static_cast<int>(goal.configurations.size()) < count;
   goal.p_W = pose.X_WT * point.p_T;
   goal.radius = pose.position_tolerance + pose.angle_tolerance * point.p_T.norm();

@@ -194,6 +194,14 @@ bool LatticeModel::own_snap(const Eigen::VectorXd& q, Move& out) const {
   return problem_.robot.within_limits(child, kOwnResolution) && (child - q).cwiseAbs().maxCoeff() > kOwnResolution;
 }
 
+void LatticeModel::add_goals(const std::vector<Eigen::VectorXd>& configurations) {
+  goal_.configurations.insert(goal_.configurations.end(), configurations.begin(), configurations.end());
+}
+
+void LatticeModel::add_chains(std::vector<GoalChain> chains) {
+  chains_.insert(chains_.end(), std::make_move_iterator(chains.begin()), std::make_move_iterator(chains.end()));
+}
+
 int LatticeModel::nearest_link(const GoalChain& chain, const Eigen::VectorXd& q) const {
   const auto closer = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return (a - q).squaredNorm() < (b - q).squaredNorm();

@@ -10,6 +10,8 @@ OptionTable SelSimOptions::table() {
   t.add("immovables", immovables, {"known", "discovered"},
         "whether the search knows the immovable objects from the start or finds them like the others");
   t.add("max_iterations", max_iterations, 1, 1000000, "planning iterations before giving up");
+  t.add("round_expansions", round_expansions, 1, 1000000000,
+        "expansions of a search before it begins anew with more goals and chains; doubles each time");
   t.add("joint_resolution_deg", l.joint_resolution_deg, 0.01, 45, "bin of a revolute joint (deg)");
   t.add("prismatic_resolution", l.prismatic_resolution, 1e-5, 0.5, "bin of a prismatic joint (m)");
   t.add("long_step_deg", l.long_step_deg, 0.1, 90, "long primitive, one joint at a time (deg)");

@@ -28,20 +28,47 @@ void SelSimQuery::prepare() {
   everything_ = make_relevant_bodies(problem_, ObjectSet::all(problem_.scene));
   // Bodies that stay put and may not be touched: walls for goal configurations and heuristic alike.
   ObjectSet immovable = ObjectSet::of_kind(problem_.scene, ObjectKind::immovable);
-  ObjectSet walls(problem_.scene.size());
+  walls_ = ObjectSet(problem_.scene.size());
   for (ObjectId id : everything_.forbidden.ids())
-    if (!problem_.scene[id].movable()) walls.insert(id);
+    if (!problem_.scene[id].movable()) walls_.insert(id);
   relevant_ = !variant_.selective                    ? ObjectSet::all(problem_.scene)
               : settings_.immovables == "discovered" ? ObjectSet(problem_.scene.size())
                                                      : immovable;
   const TrackedPoint point = tracked_point(*kinematics_);
-  ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator().collision(), walls, options_.seed,
+  ReachGoal goal = make_reach_goal(problem_, *kinematics_, point, evaluator().collision(), walls_, options_.seed,
                                    settings_.lattice.goal_configurations);
-  GoalChains chains = make_goal_chains(problem_, evaluator().collision(), walls, goal.configurations, options_.seed,
+  GoalChains chains = make_goal_chains(problem_, evaluator().collision(), walls_, goal.configurations, options_.seed,
                                        settings_.lattice.chains, context_.stop);
+  round_expansions_ = settings_.round_expansions;
   chain_budget_used_up_ = chains.budget_used_up;
   model_ = std::make_unique<LatticeModel>(problem_, kinematics_, settings_.lattice, std::move(goal),
-                                          std::move(chains.chains), point, walls);
+                                          std::move(chains.chains), point, walls_);
+}
+
+bool SelSimQuery::widen() {
+  if (result_.stats.expansions >= options_.max_expansions || context_.stop->stopped()) return false;
+  ++round_;
+  round_expansions_ *= 2;
+  const std::uint64_t seed = hash_combine(options_.seed, static_cast<std::uint64_t>(round_));
+  const std::vector<Eigen::VectorXd> known = model_->goal().configurations;
+  const ReachGoal drawn = make_reach_goal(problem_, *kinematics_, tracked_point(*kinematics_), evaluator().collision(),
+                                          walls_, seed, settings_.lattice.goal_configurations);
+  std::vector<Eigen::VectorXd> fresh;
+  for (const Eigen::VectorXd& q : drawn.configurations)
+    if (std::none_of(known.begin(), known.end(), [&](const Eigen::VectorXd& k) {
+          return (k - q).cwiseAbs().maxCoeff() < IkOptions{}.min_separation;
+        }))
+      fresh.push_back(q);
+  // New goals first: chains to the old ones were drawn in earlier rounds. If there are none, other ways to the old
+  // ones.
+  const int first = fresh.empty() ? 0 : static_cast<int>(known.size());
+  GoalChains chains = make_goal_chains(problem_, evaluator().collision(), walls_, fresh.empty() ? known : fresh, seed,
+                                       settings_.lattice.chains, context_.stop);
+  for (GoalChain& chain : chains.chains) chain.goal += first;
+  chain_budget_used_up_ = chain_budget_used_up_ || chains.budget_used_up;
+  model_->add_goals(fresh);
+  model_->add_chains(std::move(chains.chains));
+  return true;
 }
 
 SelSimQuery::Search SelSimQuery::search_once() {
@@ -57,7 +84,7 @@ SelSimQuery::Search SelSimQuery::search_once() {
   if (!options_.trace_path.empty()) parallel.trace = &trace;
   search::SearchOptions options;
   options.weight = weight_;
-  options.max_expansions = options_.max_expansions - result_.stats.expansions;
+  options.max_expansions = std::min(options_.max_expansions - result_.stats.expansions, round_expansions_);
   options.max_charge = options_.max_simulations - result_.stats.simulations_used;
   options.stop = context_.stop;
   if (context_.on_progress)
@@ -234,6 +261,7 @@ PlanResult& SelSimQuery::no_path(const Search& search) {
     case search::EndReason::stopped:
       return stopped();
     case search::EndReason::limit_expansions:
+      if (context_.stop->stopped()) return stopped();  // before the lattice could be widened
       return finish(PlanStatus::limit, "no plan within the limit on expansions; --max-expansions raises it");
     case search::EndReason::limit_charge:
       return out_of_simulations();
@@ -265,6 +293,7 @@ PlanResult SelSimQuery::run() {
                       " inverse-kinematics solutions hit the robot itself, a fixture or an immovable)");
   while (result_.stats.planning_iterations < settings_.max_iterations) {
     const Search found = search_once();
+    if (found.reason == search::EndReason::limit_expansions && widen()) continue;
     if (!found.found()) return no_path(found);
     if (result_.stats.simulations_used > options_.max_simulations)
       return out_of_simulations();  // by its last action's legs

@@ -39,6 +39,11 @@ class SelSimQuery {
 
   void prepare();
   Search search_once();
+  /// After a search that used up its round: more goal configurations and chains, from a stream of their own, and twice
+  /// the expansions. A greedy search that is lost between objects is better begun anew with more ways to choose from;
+  /// as rounds double, little is lost if it was not. Both depend on configuration, task, seed and what stays, so
+  /// Theorem 5.2 holds within a round; bounds and proofs are of the last one's lattice. False: limits are reached.
+  bool widen();
   /// Of a joint path (milliradians), at most the cost that the search gave to it: each of its edges is rounded up and
   /// pays for contacts besides. So the search's bound holds for it, and for what smoothing leaves of it all the more.
   static std::int64_t length(const std::vector<Eigen::VectorXd>& path);
@@ -67,7 +72,10 @@ class SelSimQuery {
   std::vector<std::unique_ptr<EdgeEvaluator>> workers_;  // one per thread; the first also tracks and smooths
   std::shared_ptr<OutcomeMemo> memo_;                    // theirs; null: not asked for
   std::unique_ptr<LatticeModel> model_;
+  ObjectSet walls_;  // what stays and may not be touched
   bool chain_budget_used_up_ = false;
+  int round_ = 0;
+  std::int64_t round_expansions_ = 0;  // of one search, before the lattice is widened
   RelevantBodies everything_;
   ObjectSet relevant_;
   std::set<BannedEdge> banned_;

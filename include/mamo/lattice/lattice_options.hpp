@@ -25,7 +25,7 @@ struct LatticeOptions {
   double object_angle_resolution_deg = 5.0;
   bool exact_objects = false;  // class = exact key
   GoalChainOptions chains;
-  double contact_cost = 0;  // rad, of an action that touches relevant objects, on top of its length; 0: none
+  double contact_cost = 1;  // rad, of an action that touches relevant objects, on top of its length; 0: none
   bool memo = true;         // outcomes of physics are kept for the whole query
   int joins = 1;            // chains that a state may join, the nearest ones (the start: all)
   CollisionOptions collision;

@@ -72,6 +72,10 @@ class LatticeModel {
   /// The child of one action; false if there is none. The inverse of what moves() enumerates.
   bool move(const LatticeState& state, std::int32_t action, Move& out) const;
 
+  /// More goal configurations and ways to them; actions there were keep their numbers. Not while a search runs.
+  void add_goals(const std::vector<Eigen::VectorXd>& configurations);
+  void add_chains(std::vector<GoalChain> chains);
+
   /// The configurations that an action visits, its child's last; empty if there is no such action.
   std::vector<Eigen::VectorXd> legs(const LatticeState& state, std::int32_t action) const;
 
