@@ -108,9 +108,9 @@ std::vector<VoxelVolume> RearrangementQuery::negative_goal_regions() {
   std::deque<Region> found;
   std::map<std::string, std::int64_t> failures;
   bool exhausted = true;
-  for (const auto& [grasp, objects] :
+  for (const RetrievalPlanner::Obstruction& least :
        retrievals_->least_obstructed(workers_.front()->collision(), start, all_movables_, settings_.regions)) {
-    RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), grasp, WorkerId(0));
+    RetrievalOutcome outcome = retrieve(start, ObjectSet(scene().size()), least.grasp, WorkerId(0));
     if (outcome.stopped) {
       for (Region& region : found) board_.finish(region.job);
       return stopped(), std::vector<VoxelVolume>{};
