@@ -130,50 +130,74 @@ class Grasper {
   Eigen::AlignedBox3d space_;
 };
 
-/// Connects candidates with home one after the other: a way may join the ways before it.
+/// Connects candidates with home, block by block: a way may join ways of the blocks before. Within a block nothing
+/// depends on anything else of it, so the workers share it, and the outcome does not depend on how many they are.
 class WayFinder {
  public:
-  WayFinder(GraspSet& set, CollisionChecker& checker)
-      : set_(set),
-        around_(set.around),
-        legs_(around_, checker, WorldState::start_of(around_.problem.scene), ObjectSet(around_.problem.scene.size())) {}
+  WayFinder(GraspSet& set, Executor& executor, const std::vector<CollisionChecker*>& checkers)
+      : set_(set), executor_(executor) {
+    const Problem& problem = set.around.problem;
+    for (CollisionChecker* checker : checkers)
+      legs_.push_back(std::make_unique<Legs>(set.around, *checker, WorldState::start_of(problem.scene),
+                                             ObjectSet(problem.scene.size())));
+  }
 
   void run() {
     connect_start();
-    for (std::size_t c = 0; c < set_.ways.size(); ++c)
-      if (!find_way(c, {failed_ < kFirstFailures ? kFirstNodes : 0})) ++failed_;
+    for (std::size_t first = 0; first < set_.ways.size();) {
+      // Where the first search fails many will.
+      const std::size_t wanted = !known_.empty() ? kBlock : failed_ > 0 ? kBlock / 2 : 1;
+      const std::size_t size = std::min({wanted, kBlock, set_.ways.size() - first});
+      find_ways(first, size, {failed_ < kFirstFailures ? kFirstNodes : 0});
+      first += size;
+    }
     for (std::size_t c = 0; c < set_.ways.size() && known_.empty(); ++c)
-      find_way(c, {kLastNodes * set_.options.max_nodes});
+      find_ways(c, 1, {kLastNodes * set_.options.max_nodes});
   }
 
  private:
+  static constexpr std::size_t kBlock = 16;
+
   void connect_start() {
-    const Eigen::VectorXd &start = around_.problem.q_start, &home = around_.task().home;
+    const Eigen::VectorXd &start = set_.around.problem.q_start, &home = set_.around.task().home;
     if (start == home)
       set_.from_start = {start};
     else
-      set_.from_start = legs_.search(Phase::approach, start, {home}, RandomStream(set_.seed, {kStartKey}),
-                                     {kLastNodes * set_.options.max_nodes}, nullptr);
+      set_.from_start = legs_.front()->search(Phase::approach, start, {home}, RandomStream(set_.seed, {kStartKey}),
+                                              {kLastNodes * set_.options.max_nodes}, nullptr);
   }
 
-  bool find_way(std::size_t c, const JointPathOptions& options) {
-    legs_.grip(set_.candidates[c].reach.back());
+  void find_ways(std::size_t first, std::size_t size, const JointPathOptions& options) {
     std::vector<Suffix> others;
     for (std::size_t k = known_.size(); k-- > 0 && others.size() < kJoined;)
       others.push_back({&set_.ways[known_[k]], set_.ways[known_[k]].line_end});
-    if (find_rest(set_, legs_, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
-      known_.push_back(c);
-    if (set_.ways[c].known)
-      set_.ways[c].approach = find_approach(set_, legs_, set_.ways[c], set_.candidates[c].reach.front(),
+    std::atomic<std::size_t> next{first};
+    const auto work = [&](WorkerId worker) {
+      for (std::size_t c = next++; c < first + size; c = next++) find_way(*legs_[worker.index()], c, others, options);
+    };
+    if (size == 1)
+      work(WorkerId(0));
+    else
+      executor_.run(work);
+    for (std::size_t c = first; c < first + size; ++c)
+      if (set_.ways[c].known)
+        known_.push_back(c);
+      else
+        ++failed_;
+  }
+
+  void find_way(Legs& legs, std::size_t c, const std::vector<Suffix>& others, const JointPathOptions& options) {
+    legs.grip(set_.candidates[c].reach.back());
+    if (find_rest(set_, legs, set_.ways[c], others, RandomStream(set_.seed, {kWayKey, c}), options, nullptr))
+      set_.ways[c].approach = find_approach(set_, legs, set_.ways[c], set_.candidates[c].reach.front(),
                                             RandomStream(set_.seed, {kApproachKey, c}), options, nullptr);
-    return set_.ways[c].known;
   }
 
   GraspSet& set_;
-  const Surroundings& around_;
-  Legs legs_;
-  std::vector<std::size_t> known_;  // candidates with a way home
-  int failed_ = 0;                  // candidates without
+  Executor& executor_;
+  std::vector<std::unique_ptr<Legs>> legs_;  // one per worker
+  std::vector<std::size_t> known_;           // candidates with a way home
+  int failed_ = 0;                           // candidates without
 };
 
 }  // namespace
@@ -197,7 +221,7 @@ GraspSet::GraspSet(const Problem& problem, std::shared_ptr<const ForwardKinemati
     std::ranges::move(t.ways, std::back_inserter(ways));
     for (const std::string& cause : t.rejected) ++rejected[cause];
   }
-  WayFinder(*this, *checkers.front()).run();
+  WayFinder(*this, executor, checkers).run();
 }
 
 bool find_rest(const GraspSet& grasps, Legs& legs, WayHome& way, const std::vector<Suffix>& others, RandomStream random,
