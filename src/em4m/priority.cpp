@@ -15,6 +15,8 @@ void PriorityParameters::add_to(OptionTable& table) {
   table.add("priority_phi2_rate", phi2_rate, 1e-6, most, "rate of its density of the number of objects in the region");
   table.add("priority_phi3_rate", phi3_rate, 1e-6, most,
             "rate of its density of mass times friction times share inside");
+  table.add("priority_phi3_relative", phi3_relative,
+            "take that density relative to its largest value: one more object inside is never more promising");
 }
 
 ObjectLoad object_load(const VoxelVolume& region, const Object& object, const Eigen::Isometry3d& X_WO) {
@@ -47,7 +49,7 @@ Priority learned_priority(const RegionFeatures& features, const PriorityParamete
   log_f += (p.phi1_alpha - 1) * std::log(phi1) + (p.phi1_beta - 1) * std::log1p(-phi1) -
            (std::lgamma(p.phi1_alpha) + std::lgamma(p.phi1_beta) - std::lgamma(p.phi1_alpha + p.phi1_beta));
   log_f += std::log(p.phi2_rate) - p.phi2_rate * features.phi2;
-  for (double phi3 : features.phi3) log_f += std::log(p.phi3_rate) - p.phi3_rate * phi3;
+  for (double phi3 : features.phi3) log_f += (p.phi3_relative ? 0 : std::log(p.phi3_rate)) - p.phi3_rate * phi3;
   return {log_f, 0, 0};
 }
 

@@ -18,7 +18,8 @@ namespace mamo {
 namespace {
 
 constexpr int kLeastPoints = 5;
-constexpr double kEdge = 1e-9;  // phi1 is kept this far from 0 and 1, where the density may have poles
+constexpr double kLeastMean = 1e-3;  // of what exponential densities are fitted to
+constexpr double kEdge = 1e-9;       // phi1 is kept this far from 0 and 1, where the density may have poles
 
 /// The features of the points that the densities are fitted to.
 struct Samples {
@@ -115,8 +116,8 @@ Result<PriorityFit> fit_priority(const std::vector<TrainingPoint>& points) {
   PriorityParameters& p = fit.parameters;
   p.prior = static_cast<double>(fit.solved) / static_cast<double>(fit.points);
   std::tie(p.phi1_alpha, p.phi1_beta) = fit_beta(s.phi1);
-  p.phi2_rate = 1 / mean(s.phi2);
-  p.phi3_rate = 1 / std::max(mean(s.phi3), 1e-6);
+  p.phi2_rate = 1 / std::max(mean(s.phi2) - 1, kLeastMean);
+  p.phi3_rate = 1 / std::max(mean(s.phi3), kLeastMean);
   return fit;
 }
 
@@ -131,7 +132,7 @@ std::string parameters_yaml(const PriorityParameters& p, const std::string& abou
   add("priority_phi1_beta", p.phi1_beta);
   add("priority_phi2_rate", p.phi2_rate);
   add("priority_phi3_rate", p.phi3_rate);
-  return text + "\n";
+  return text + "\npriority_phi3_relative: " + (p.phi3_relative ? "true" : "false") + "\n";
 }
 
 std::string fit_svg(const std::vector<TrainingPoint>& points, const PriorityFit& fit) {
@@ -141,7 +142,8 @@ std::string fit_svg(const std::vector<TrainingPoint>& points, const PriorityFit&
   const auto exponential = [](double rate) { return [rate](double x) { return -std::expm1(-rate * x); }; };
   const Chart charts[] = {
       panel("phi1", "share of the region that movables fill", s.phi1, beta, true),
-      panel("phi2", "movables in the region", s.phi2, exponential(p.phi2_rate), false),
+      panel(
+          "phi2", "movables in the region", s.phi2, [&](double x) { return exponential(p.phi2_rate)(x - 1); }, false),
       panel("phi3", "mass times friction times share inside, of each (kg)", s.phi3, exponential(p.phi3_rate), true)};
   constexpr double kWidth = 640, kHeight = 440;
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + view::px(kWidth) + " " +

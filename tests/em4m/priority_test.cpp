@@ -22,7 +22,8 @@ TEST(LearnedPriority, TheDensityOfTheFilledShareIntegratesToOne) {
 }
 
 TEST(LearnedPriority, EachObjectMultipliesItsOwnDensity) {
-  const PriorityParameters p;
+  PriorityParameters p;
+  p.phi3_relative = false;
   const double one = density(0.1, 2, {0.02}, p), two = density(0.1, 2, {0.02, 0.05}, p);
   EXPECT_NEAR(two / one, p.phi3_rate * std::exp(-p.phi3_rate * 0.05), 1e-9);
 }
@@ -33,6 +34,14 @@ TEST(LearnedPriority, LessInTheRegionIsMorePromising) {
   EXPECT_GT(learned_priority({0.01, 1, {0.02}}, p), learned_priority({0.01, 1, {0.2}}, p));
   EXPECT_GT(learned_priority({0.01, 1, {0.1}}, p), learned_priority({0.01, 2, {0.1, 0.1}}, p));
   EXPECT_TRUE(std::isinf(learned_priority({0, 0, {}}, p)[0]));
+}
+
+TEST(LearnedPriority, OneMoreObjectIsNeverMorePromisingWhereDensitiesAreRelative) {
+  PriorityParameters p;
+  p.phi3_relative = false;
+  EXPECT_LT(density(0.1, 1, {0.02}, p), density(0.1, 2, {0.02, 0.001}, p)) << "as published, it is";
+  p.phi3_relative = true;
+  for (double phi3 : {0.0, 0.001, 0.1}) EXPECT_GT(density(0.1, 1, {0.02}, p), density(0.1, 2, {0.02, phi3}, p));
 }
 
 TEST(LexicographicPriority, TheFilledShareDecidesThenTheNumberThenTheLoad) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "mamo/common/random.hpp"
 #include "mamo/em4m/em4m_planner.hpp"
+#include "mamo/io/load.hpp"
 
 namespace mamo {
 namespace {
@@ -69,7 +71,7 @@ TEST(FitPriority, CountsWhatLedToASolutionOnly) {
   EXPECT_EQ(fit->solved, 6);
   EXPECT_EQ(fit->free, 1);
   EXPECT_DOUBLE_EQ(fit->parameters.prior, 6.0 / 8);
-  EXPECT_DOUBLE_EQ(fit->parameters.phi2_rate, 5.0 / 10) << "one over the mean of 1, 2, 3, 1 and 3";
+  EXPECT_DOUBLE_EQ(fit->parameters.phi2_rate, 1.0) << "one over the mean of 0, 1, 2, 0 and 2";
   EXPECT_NEAR(fit->parameters.phi3_rate, 10 / 1.2, 1e-9);
   EXPECT_NEAR(fit->parameters.phi1_alpha / (fit->parameters.phi1_alpha + fit->parameters.phi1_beta), 0.04, 0.001);
 }
@@ -90,7 +92,23 @@ TEST(ParametersYaml, NamesOptionsOfThePlanner) {
       ++named;
       EXPECT_THAT(text, testing::HasSubstr("\n" + option.name + ": "));
     }
-  EXPECT_EQ(named, 5);
+  EXPECT_EQ(named, 6);
+}
+
+/// Lines of a parameters file that are no comment.
+std::string values(const std::string& text) {
+  std::istringstream lines(text);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("#")) kept += line + "\n";
+  return kept;
+}
+
+TEST(ParametersYaml, TheShippedFileHoldsTheDefaults) {
+  const std::string folder = MAMO_SOURCE_DIR;
+  const auto shipped = io::read_file(folder + "/bench/data/em4m_priority.yaml");
+  ASSERT_TRUE(shipped.ok()) << shipped.error().message;
+  EXPECT_EQ(values(*shipped), values(parameters_yaml(PriorityParameters(), "")));
 }
 
 TEST(FitSvg, ShowsAllThreeFeatures) {

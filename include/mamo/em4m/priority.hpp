@@ -32,13 +32,17 @@ struct RegionFeatures {
 RegionFeatures region_features(const VoxelVolume& region, const std::vector<ObjectLoad>& loads);
 
 /// Parameters of the naive Bayes model: a beta density of phi1, exponential densities of phi2 and of each phi3. The
-/// defaults are the published ones (EM4M_FACTS section 6); `mamo train` fits others.
+/// defaults come from `mamo train` (bench/data/em4m_priority.yaml); bench/suites/em4m_priority.yaml has the published
+/// ones.
 struct PriorityParameters {
-  double prior = 0.3084358524;       // P(E)
-  double phi1_alpha = 0.3403101839;  // of the beta density
-  double phi1_beta = 45.0750087432;  // of the beta density
-  double phi2_rate = 1.5634743875;   // of the exponential density
-  double phi3_rate = 32.1092604858;  // of the exponential density
+  double prior = 0.7529550827423168;       // P(E)
+  double phi1_alpha = 0.6050121196764923;  // of the beta density
+  double phi1_beta = 23.81728980460192;    // of the beta density
+  double phi2_rate = 3.114583333333333;    // of the exponential density
+  double phi3_rate = 17.023411885864185;   // of the exponential density
+  /// The density of each phi3 relative to its largest value, so that one more object in the region never makes a
+  /// rearrangement more promising; the density as it is exceeds 1 near 0 and does (EM4M_FACTS section 10).
+  bool phi3_relative = true;
   void add_to(OptionTable& table);
 };
 

@@ -23,8 +23,9 @@ struct PriorityFit {
 };
 
 /// Maximum likelihood over the points that led to a solution and whose region is not free (the search takes a free
-/// region first, whatever its density): a beta density of phi1, exponential ones of phi2 and of each phi3; the prior is
-/// the solved share of all points. An error when fewer than 5 points are left or all have the same phi1.
+/// region first, whatever its density): a beta density of phi1, exponential ones of phi2 - 1 (where a region is not
+/// free there is one at least; a shift changes no order) and of each phi3; the prior is the solved share of all points.
+/// An error when fewer than 5 points are left or all have the same phi1.
 Result<PriorityFit> fit_priority(const std::vector<TrainingPoint>& points);
 
 /// {alpha, beta} of the beta density most likely to give the values, all in (0, 1); Newton's method on the two
