@@ -158,6 +158,25 @@ class Playback(unittest.TestCase):
         self.assertGreater(moved[2], 0.9, "the object of interest was not lifted")
         self.assert_clean(page)
 
+    def test_a_shelf_retrieval_that_pushes_what_is_in_the_way(self):
+        problem, plan = os.path.join(PROBLEMS, "shelf_2.yaml"), self.path("pushes.json")
+        run = mamo("plan", problem, "--explain", "--threads", 1, "--out", plan)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        page = self.made(problem, plan)
+        self.assertEqual(self.value("document.getElementById('badge').textContent"), "holds in full physics",
+                         self.value("document.getElementById('reason').textContent"))
+        kinds = self.value("player.data.segments.map((s) => s.kind)")
+        self.assertGreaterEqual(kinds.count("push"), 2)
+        self.assertEqual(kinds[-3:], ["approach", "grasp", "extract"])
+        layers = self.value("document.body.textContent")
+        for name in ("negative goal region", "object paths", "failed pushes"):
+            self.assertIn(name, layers.lower())
+        self.play_and_scrub()
+        self.shot("pushes")
+        self.toggle_every_layer()
+        self.assertGreater(self.value("player.replay.contacts.length"), 0)
+        self.assert_clean(page)
+
     def test_a_plan_that_does_not_hold_says_why_and_where(self):
         problem, plan = retrieval.write(self.folder.name, deep=True)
         page = self.made(problem, plan)
