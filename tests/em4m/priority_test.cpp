@@ -23,6 +23,8 @@ TEST(LearnedPriority, TheDensityOfTheFilledShareIntegratesToOne) {
 
 TEST(LearnedPriority, EachObjectMultipliesItsOwnDensity) {
   PriorityParameters p;
+  p.phi2_rate = 1.5634743875;  // the published ones
+  p.phi3_rate = 32.1092604858;
   p.phi3_relative = false;
   const double one = density(0.1, 2, {0.02}, p), two = density(0.1, 2, {0.02, 0.05}, p);
   EXPECT_NEAR(two / one, p.phi3_rate * std::exp(-p.phi3_rate * 0.05), 1e-9);
@@ -38,6 +40,8 @@ TEST(LearnedPriority, LessInTheRegionIsMorePromising) {
 
 TEST(LearnedPriority, OneMoreObjectIsNeverMorePromisingWhereDensitiesAreRelative) {
   PriorityParameters p;
+  p.phi2_rate = 1.5634743875;  // the published ones
+  p.phi3_rate = 32.1092604858;
   p.phi3_relative = false;
   EXPECT_LT(density(0.1, 1, {0.02}, p), density(0.1, 2, {0.02, 0.001}, p)) << "as published, it is";
   p.phi3_relative = true;
